@@ -1,0 +1,42 @@
+// The bonds of a scene as a structure of arrays: one record per bond whatever happens to it. `lo` is the end with the
+// lower global id, `hi` the other; rows are sorted by the rows of their ends, and padded to whole batches of a
+// register with bonds that have neither stiffness nor strength.
+#pragma once
+#include <vector>
+
+#include "core/column.hpp"
+#include "core/table.hpp"
+
+namespace breccia {
+
+// clang-format off
+#define BRECCIA_BOND_COLUMNS(COLUMN)                                                                                  \
+  COLUMN(Gid,    gid_lo,          "1",     identity,  always,          "smaller global id of the two ends")           \
+  COLUMN(Gid,    gid_hi,          "1",     identity,  always,          "larger global id of the two ends")            \
+  COLUMN(Row,    row_lo,          "1",     scratch,   always,          "row of the end gid_lo")                       \
+  COLUMN(Row,    row_hi,          "1",     scratch,   always,          "row of the end gid_hi")                       \
+  COLUMN(double, rest_length,     "m",     reference, always,          "centre distance when bonded; free of stress") \
+  COLUMN(double, area,            "m^2",   reference, always,          "alpha pi min(r_lo, r_hi)^2")                  \
+  COLUMN(double, stiffness,       "N/m",   reference, always,          "k_n = E area/rest_length")                    \
+  COLUMN(double, damping,         "N s/m", reference, contact_damping, "c_n = 2 xi sqrt(m_lo m_hi k_n/(m_lo + m_hi))") \
+  COLUMN(Vec3,   shear_force,     "N",     history,   always,          "on lo: k_s times the secant shear displacement while intact, the friction force once broken") \
+  COLUMN(double, plastic_stretch, "m",     history,   plasticity,      "elongation at which the bond is free of force, <= 0") \
+  COLUMN(double, damage_normal,   "1",     history,   breakage,        "D_n: 0 intact, 1 broken in tension")          \
+  COLUMN(double, damage_shear,    "1",     history,   breakage,        "D_s: 0 intact, 1 broken in shear")
+// clang-format on
+
+struct BondTable {
+  BRECCIA_TABLE(BRECCIA_BOND_COLUMNS)
+};
+
+/// What became of a bond, as written to results: 0 intact, 1 broken in tension, 2 broken in shear.
+enum class BondState : std::uint8_t { intact = 0, broken_tension = 1, broken_shear = 2 };
+
+/// The bond's state from its two damages (both empty spans where the scene has no breakage).
+inline BondState bond_state(const BondTable& bonds, std::size_t row) {
+  if (bonds.damage_normal.empty()) return BondState::intact;
+  if (bonds.damage_normal[row] >= 1.0) return BondState::broken_tension;
+  return bonds.damage_shear[row] >= 1.0 ? BondState::broken_shear : BondState::intact;
+}
+
+}  // namespace breccia

@@ -1,0 +1,31 @@
+// A column of a table is declared once, in one line of a COLUMNS macro: type, name, unit, role, feature that needs
+// it, meaning. Storage, results, ParaView output and the printed documentation derive from that line.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "kernels/vec3.hpp"
+
+namespace breccia {
+
+using Gid = std::uint64_t;  ///< global id of a particle, as in the specimen's file
+using Row = std::uint32_t;  ///< row of a table on this rank
+
+/// What a column is for. Identity, reference, history and state are saved and sent; scratch never is.
+enum class Role { identity, reference, history, state, scratch };
+
+/// The feature of the scene without which a column has no storage.
+enum class Need { always, rotation, contact_damping, plasticity, breakage };
+
+struct ColumnInfo {
+  std::string_view type, name, unit;
+  Role role;
+  Need need;
+  std::string_view meaning;
+};
+
+std::string_view name_of(Role);
+std::string_view name_of(Need);
+
+}  // namespace breccia

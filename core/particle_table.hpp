@@ -1,0 +1,30 @@
+// The particles of a scene as a structure of arrays. Rows [0, free) move freely; rows [free, size) belong to a
+// platen. Within each part rows lie along a space-filling curve.
+#pragma once
+#include <vector>
+
+#include "core/column.hpp"
+#include "core/table.hpp"
+
+namespace breccia {
+
+// clang-format off
+#define BRECCIA_PARTICLE_COLUMNS(COLUMN)                                                                              \
+  COLUMN(Gid,    gid,                "1",      identity,  always,   "global id, as in the specimen's file")           \
+  COLUMN(double, radius,             "m",      reference, always,   "radius of the sphere")                           \
+  COLUMN(double, mass,               "kg",     reference, always,   "density times volume")                           \
+  COLUMN(Vec3,   reference_position, "m",      reference, always,   "centre when the bonds were made")                \
+  COLUMN(Vec3,   position,           "m",      state,     always,   "centre")                                         \
+  COLUMN(Vec3,   velocity,           "m/s",    state,     always,   "of the centre, half a step before position")     \
+  COLUMN(Vec3,   spin,               "1/s",    state,     rotation, "angular velocity, half a step before position")  \
+  COLUMN(Vec3,   force,              "N",      scratch,   always,   "sum of the contact and boundary forces")         \
+  COLUMN(Vec3,   torque,             "N m",    scratch,   rotation, "sum of the contact torques")
+// clang-format on
+
+struct ParticleTable {
+  BRECCIA_TABLE(BRECCIA_PARTICLE_COLUMNS)
+
+  std::size_t free = 0;  ///< rows [0, free) move freely, the others are held by a platen
+};
+
+}  // namespace breccia

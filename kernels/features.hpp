@@ -1,0 +1,27 @@
+// What a scene asks of the bond loop, fixed at compile time: a feature that is off costs no instruction.
+#pragma once
+
+namespace breccia {
+
+/// How tension and shear share the strength of a bond (MODEL: uncoupled is the paper's default).
+enum class Criterion : unsigned char { uncoupled, coupled, mohr_coulomb };
+
+/// A structural type, so that a kernel can take it as a template parameter.
+struct Features {
+  bool rotation = true;         ///< particles spin; bonds pass torques
+  bool contact_damping = true;  ///< viscous force along the bond
+  bool plasticity = true;       ///< three-slope envelope in compression
+  bool breakage = true;         ///< damage, failure, Coulomb friction afterwards
+  Criterion criterion = Criterion::uncoupled;
+
+  constexpr bool operator==(const Features&) const = default;
+
+  /// True when a kernel built for `this` also computes the scene `other` (a superset with the same criterion).
+  constexpr bool covers(const Features& other) const {
+    return (rotation || !other.rotation) && (contact_damping || !other.contact_damping) &&
+           (plasticity || !other.plasticity) && (breakage || !other.breakage) &&
+           (!other.breakage || criterion == other.criterion);
+  }
+};
+
+}  // namespace breccia
