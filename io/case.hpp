@@ -1,0 +1,89 @@
+// A case file, resolved: every key with its unit taken off and its default filled in.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/material.hpp"
+#include "core/specimen.hpp"
+
+namespace breccia {
+
+/// Size distribution of a packing made here (data of [specimen.pack] sizes).
+struct SizeDistribution {
+  enum class Kind { lognormal, uniform, sieves } kind = Kind::lognormal;
+  double spread = 0.26;                 ///< lognormal: standard deviation of ln r; uniform: half-width over mean
+  std::vector<double> sieve_openings;   ///< m, rising; sieves: diameters
+  std::vector<double> sieve_passing;    ///< mass fraction passing each opening, rising to 1
+};
+
+struct PackRequest {
+  std::size_t spheres = 0;
+  SizeDistribution sizes;
+  double porosity = 0.26;  ///< 1 - sum of sphere volumes/body volume: overlaps count twice
+  std::uint64_t seed = 1;
+};
+
+struct SpecimenCase {
+  std::optional<std::filesystem::path> file;
+  std::optional<PackRequest> pack;
+  Body body;
+  char axis = 'z';              ///< of the cylinder or disc in the file
+  std::optional<Vec3> centre;   ///< m; overrides the middle of the box around the spheres
+};
+
+enum class AlphaRule { automatic, affine, porosity, number };
+enum class Elasticity { paper, matched };
+
+struct BondsCase {
+  double range = 0.10;                  ///< beta
+  std::optional<double> coordination;   ///< target instead of range
+  AlphaRule alpha_rule = AlphaRule::automatic;
+  double alpha = 0;                     ///< when alpha_rule is number
+  Elasticity elasticity = Elasticity::paper;
+};
+
+struct DampingCase {
+  double contact = 0.9;                 ///< xi, fraction of critical, along the bond
+  bool paper_form = false;              ///< form = "paper": times pi alpha r_c/d0
+  double translation = 0.1, rotation = 0.1;
+};
+
+struct TestCase {
+  std::vector<double> confinement{0.0};  ///< Pa
+  bool rough_platens = true;
+  double platen_speed = 0.1;             ///< m/s, of each platen
+  double stop_strain = 0.02;
+  double stop_after_peak = 0.5;          ///< fraction of the peak deviator; 0 = never
+};
+
+struct FeatureCase {                      ///< what the scene may leave out
+  bool rotation = true, plasticity = true, breakage = true, new_contacts = true;
+};
+
+enum class ScatterKind { atomic, private_sums, gather };
+
+struct Case {
+  std::filesystem::path source;          ///< the case file
+  SpecimenCase specimen;
+  std::vector<Material> materials;       ///< one per confinement, in the order of test.confinement
+  BondsCase bonds;
+  DampingCase damping;
+  FeatureCase features;
+  TestCase test;
+  double safety = 0.8;
+  ScatterKind scatter = ScatterKind::private_sums;
+  int frames = 20;
+  std::string resolved;                  ///< the whole case as TOML, every default written out
+};
+
+/// Reads, checks and resolves a case file.
+/// @param file   the case, TOML
+/// @param sets   `--set` overrides, each "table.key=value"
+/// @param test   name of the program: "ucs", "triaxial", "pack", ... (some keys belong to some tests only)
+/// @throws BadInput: one line with file, line, key and the nearest valid choice
+Case load_case(const std::filesystem::path& file, const std::vector<std::string>& sets, const std::string& test);
+
+}  // namespace breccia
