@@ -7,24 +7,11 @@
 #include <vector>
 
 #include "core/material.hpp"
+#include "core/packing.hpp"
+#include "core/scene_options.hpp"
 #include "core/specimen.hpp"
 
 namespace breccia {
-
-/// Size distribution of a packing made here (data of [specimen.pack] sizes).
-struct SizeDistribution {
-  enum class Kind { lognormal, uniform, sieves } kind = Kind::lognormal;
-  double spread = 0.26;                 ///< lognormal: standard deviation of ln r; uniform: half-width over mean
-  std::vector<double> sieve_openings;   ///< m, rising; sieves: diameters
-  std::vector<double> sieve_passing;    ///< mass fraction passing each opening, rising to 1
-};
-
-struct PackRequest {
-  std::size_t spheres = 0;
-  SizeDistribution sizes;
-  double porosity = 0.26;  ///< 1 - sum of sphere volumes/body volume: overlaps count twice
-  std::uint64_t seed = 1;
-};
 
 struct SpecimenCase {
   std::optional<std::filesystem::path> file;
@@ -33,9 +20,6 @@ struct SpecimenCase {
   char axis = 'z';              ///< of the cylinder or disc in the file
   std::optional<Vec3> centre;   ///< m; overrides the middle of the box around the spheres
 };
-
-enum class AlphaRule { automatic, affine, porosity, number };
-enum class Elasticity { paper, matched };
 
 struct BondsCase {
   double range = 0.10;                  ///< beta
@@ -62,8 +46,6 @@ struct TestCase {
 struct FeatureCase {                      ///< what the scene may leave out
   bool rotation = true, plasticity = true, breakage = true, new_contacts = true;
 };
-
-enum class ScatterKind { atomic, private_sums, gather };
 
 struct Case {
   std::filesystem::path source;          ///< the case file
