@@ -1,0 +1,42 @@
+// The bonds as a linear elastic network: the stiffness that the probe for alpha solves with, and that bounds the
+// time step.
+#pragma once
+#include <Eigen/Core>
+
+#include "core/assembly.hpp"
+
+namespace breccia {
+
+/// Per bond: unit normal, stiffnesses, arms. Six unknowns a particle: displacement, then rotation.
+struct ElasticNetwork {
+  struct Spring {
+    Row lo, hi;
+    Vec3 normal;
+    double k_n, k_s;       ///< N/m
+    double arm_lo, arm_hi;  ///< m
+  };
+  std::vector<Spring> springs;
+  std::vector<Index> first_entry, entries;  ///< per particle: spring << 1 | particle is hi
+  std::size_t particles = 0;
+  int threads = 1;
+};
+
+/// @param shear_ratio  k_s/k_n
+/// @param young        Pa; alpha is taken as 1
+ElasticNetwork elastic_network(const Assembly& assembly, double young, double shear_ratio, int threads);
+
+/// forces = K displacements; both of 6 * particles.
+void apply_stiffness(const ElasticNetwork& network, const Eigen::VectorXd& displacements, Eigen::VectorXd& forces);
+
+/// What the assembly does when its layers are pushed together: the answer of a static linear solve.
+struct ElasticResponse {
+  double young_modulus = 0;  ///< Pa, mean platen stress over gauge strain
+  double poisson_ratio = 0;  ///< radial gauge over axial gauge
+  long iterations = 0;       ///< of conjugate gradients
+};
+
+/// @param rough  lateral motion of the layers fixed
+/// @throws BadInput when the specimen is not connected from end to end
+ElasticResponse probe(const Assembly& assembly, double young, double shear_ratio, bool rough, int threads);
+
+}  // namespace breccia
