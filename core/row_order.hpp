@@ -1,0 +1,17 @@
+// The order in which rows leave the program: by global ids, whatever the order in memory, threads and ranks
+// are.
+#pragma once
+#include <vector>
+
+#include "core/bond_table.hpp"
+#include "core/particle_table.hpp"
+
+namespace breccia {
+
+/// Rows [0, size) of the particles in order of their global ids.
+std::vector<Row> rows_by_gid(const ParticleTable& particles);
+
+/// Rows [0, size) of the bonds in order of (gid_lo, gid_hi); the padding is left out.
+std::vector<Row> rows_by_ends(const BondTable& bonds);
+
+}  // namespace breccia

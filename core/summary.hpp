@@ -1,0 +1,65 @@
+// What a run and a series of runs came to. Field names are the keys of summary.json, with their units in the
+// names.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace breccia {
+
+/// One run. An absent optional, and a number that is not finite, is `null` in the file.
+struct RunSummary {
+  double confinement_Pa = 0;
+  std::optional<double> peak_stress_Pa;    ///< total axial
+  std::optional<double> peak_deviator_Pa;  ///< total axial less confinement
+  bool peak_reached = false;               ///< the stress came down again after its largest value
+  std::optional<double> strain_at_peak;
+  std::optional<double> young_modulus_Pa;     ///< initial: slope between 5 and 25 % of the peak deviator
+  std::optional<double> young_modulus_50_Pa;  ///< tangent at half the peak deviator
+  std::optional<double> poisson_ratio;
+  std::optional<double> crack_initiation_stress_Pa;  ///< broken bonds reach 1 % of their number at the peak
+  std::optional<double> crack_damage_stress_Pa;      ///< the volumetric strain turns
+  std::optional<double> tensile_strength_Pa;         ///< bts
+  std::optional<double> alpha;                       ///< area factor of the bonds
+  std::uint64_t particles = 0;
+  std::uint64_t bonds = 0;
+  double coordination = 0;  ///< bonds per particle, times two
+  std::uint64_t short_bonds = 0;
+  std::uint64_t broken_tension = 0;
+  std::uint64_t broken_shear = 0;
+  std::uint64_t steps = 0;
+  double time_step_s = 0;
+  std::optional<double> critical_time_step_s;
+  double run_time_s = 0;  ///< wall time of the time loop
+  std::vector<std::pair<std::string, double>>
+      phases_s;                              ///< wall time of each phase of the step, in its order
+  std::optional<double> bond_updates_per_s;  ///< bonds x steps over run time less output and checkpoint
+  std::optional<double> bond_pass_per_s;     ///< bonds x steps over phases bonds + gather
+  std::optional<double> energy_error;        ///< of the work put in
+  std::optional<double> kinetic_ratio;       ///< kinetic over stored, largest up to the peak
+  std::optional<double> platen_mismatch;     ///< |top - bottom| over the peak, largest up to the peak
+  std::string state_hash;                    ///< 16 hex digits
+  std::string stopped_by;                    ///< "strain", "peak drop", "interrupted", ...
+  std::vector<std::string> warnings;         ///< one line each; empty when all is well
+};
+
+/// Straight line through the peaks of a series: shear strength over pressure.
+struct MohrCoulomb {
+  double cohesion_Pa = 0;
+  double friction_angle_deg = 0;
+  double residual_Pa = 0;   ///< root mean square distance of the peak stresses from the line
+  std::uint64_t peaks = 0;  ///< number of runs whose peak was used
+};
+
+struct SeriesSummary {
+  std::string test;     ///< "ucs", "triaxial", ...
+  std::string version;  ///< of breccia
+  int threads = 1;
+  int ranks = 1;
+  std::vector<RunSummary> runs;             ///< run K is runs[K], curve-K.csv, results.h5:/run-K
+  std::optional<MohrCoulomb> mohr_coulomb;  ///< only where there were enough peaks
+};
+
+}  // namespace breccia

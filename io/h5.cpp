@@ -1,0 +1,129 @@
+#include "io/h5.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace breccia::h5 {
+namespace {
+
+/// Keeps the first error that HDF5 reports, which is the innermost: the walk goes from the cause outwards.
+herr_t take_first(unsigned depth, const H5E_error2_t* error, void* reason) {
+  if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(reason) = error->desc;
+  return 0;
+}
+
+std::string innermost_reason() {
+  std::string reason;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first, &reason);
+  // of "file write failed: time = ..., error message = 'No space left on device', ..." only the message is
+  // news
+  constexpr std::string_view mark = "error message = '";
+  if (const std::size_t at = reason.find(mark); at != std::string::npos) {
+    const std::size_t start = at + mark.size();
+    reason = reason.substr(start, reason.find('\'', start) - start);
+  }
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  return reason;
+}
+
+Handle file_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make an access list");
+  check(H5Pset_file_locking(access, false, true), "do without locks");
+  return access;
+}
+
+struct Types {
+  hid_t memory, file;
+};
+
+Types types_of(Number number) {
+  switch (number) {
+    case Number::id:
+      return {H5T_NATIVE_UINT64, H5T_STD_U64LE};
+    case Number::byte:
+      return {H5T_NATIVE_UINT8, H5T_STD_U8LE};
+    case Number::real:
+      break;
+  }
+  return {H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE};
+}
+
+void write_scalar(hid_t object, const char* name, hid_t file_type, hid_t memory_type, const void* value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  const Handle attribute(H5Acreate2(object, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         name);
+  check(H5Awrite(attribute, memory_type, value), name);
+}
+
+}  // namespace
+
+void be_silent() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+void check(std::int64_t result, std::string_view doing) {
+  if (result >= 0) return;
+  const std::string reason = innermost_reason();
+  throw Failure(reason.empty() ? fmt::format("HDF5 failed at \"{}\"", doing)
+                               : fmt::format("{} (HDF5, at \"{}\")", reason, doing));
+}
+
+Handle open_file(const std::string& name) {
+  return {H5Fopen(name.c_str(), H5F_ACC_RDWR, file_access()), H5Fclose, "open"};
+}
+
+Handle create_file(const std::string& name) {
+  return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, file_access()), H5Fclose, "create"};
+}
+
+Handle create_group(hid_t parent, const std::string& name) {
+  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
+}
+
+void remove_if_there(hid_t parent, const std::string& name) {
+  const htri_t there = H5Lexists(parent, name.c_str(), H5P_DEFAULT);
+  check(there, name);
+  if (there > 0) check(H5Ldelete(parent, name.c_str(), H5P_DEFAULT), name);
+}
+
+void write_attribute(hid_t object, const char* name, double value) {
+  write_scalar(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+}
+
+void write_attribute(hid_t object, const char* name, std::uint64_t value) {
+  write_scalar(object, name, H5T_STD_U64LE, H5T_NATIVE_UINT64, &value);
+}
+
+void write_attribute(hid_t object, const char* name, std::string_view text) {
+  // of variable length: h5py hands such a text on as str, one of fixed length as bytes; and no limit at 64 kB
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, name);
+  check(H5Tset_size(type, H5T_VARIABLE), name);
+  check(H5Tset_cset(type, H5T_CSET_UTF8), name);
+  const std::string ended(text);
+  const char* value = ended.c_str();
+  write_scalar(object, name, type, type, &value);
+}
+
+void write_dataset(hid_t group, const Dataset& dataset) {
+  const char* name = dataset.name.c_str();
+  const int rank = dataset.components > 1 ? 2 : 1;
+  const std::array<hsize_t, 2> extent{dataset.rows, dataset.components};
+  const Handle space(H5Screate_simple(rank, extent.data(), nullptr), H5Sclose, name);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+  if (dataset.rows > 0) {
+    const std::array<hsize_t, 2> chunk{std::min<hsize_t>(dataset.rows, 16384), dataset.components};
+    check(H5Pset_chunk(creation, rank, chunk.data()), name);
+    check(H5Pset_shuffle(creation), name);
+    check(H5Pset_deflate(creation, 1), name);
+    check(H5Pset_fletcher32(creation), name);
+  }
+  const Types types = types_of(dataset.number);
+  const Handle set(H5Dcreate2(group, name, types.file, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
+                   name);
+  if (dataset.rows > 0) check(H5Dwrite(set, types.memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, dataset.data), name);
+  write_attribute(set, "unit", dataset.unit);
+  write_attribute(set, "role", dataset.role);
+  write_attribute(set, "meaning", dataset.meaning);
+}
+
+}  // namespace breccia::h5

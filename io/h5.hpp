@@ -1,0 +1,70 @@
+// The little of HDF5 that breccia uses: handles that close themselves, and errors as one exception with one
+// cause. Included by the .cpp files that write or read HDF5, by no header.
+#pragma once
+#include <hdf5.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace breccia::h5 {
+
+/// What HDF5 could not do, and why; without the name of the file, which the caller knows.
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Stops HDF5 from printing its own stack of errors. Calling it again costs nothing.
+void be_silent();
+
+/// @throws Failure with `doing` and HDF5's innermost reason, when `result` is negative
+void check(std::int64_t result, std::string_view doing);
+
+/// Owns an HDF5 id.
+class Handle {
+public:
+  using Close = herr_t (*)(hid_t);
+  /// @throws Failure when id is negative, as HDF5's functions return where they fail
+  Handle(hid_t id, Close closer, std::string_view doing) : id_(id), close_(closer) { check(id, doing); }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }
+  /// Closes now, and says when that fails: a file is written in earnest only when it is closed.
+  void close(std::string_view doing) { check(close_(std::exchange(id_, -1)), doing); }
+
+private:
+  hid_t id_;
+  Close close_;
+};
+
+/// Opens an existing file to be changed, or makes a new one. Without HDF5's own locks: a run must not stop
+/// because someone looks at its results.
+Handle open_file(const std::string& name);
+Handle create_file(const std::string& name);
+
+Handle create_group(hid_t parent, const std::string& name);
+void remove_if_there(hid_t parent, const std::string& name);
+
+void write_attribute(hid_t object, const char* name, double value);
+void write_attribute(hid_t object, const char* name, std::uint64_t value);
+void write_attribute(hid_t object, const char* name, std::string_view text);  ///< of any length, UTF-8
+
+/// Numbers that a dataset can hold, in memory and in the file.
+enum class Number { real, id, byte };
+
+/// A dataset of rows x components numbers with the attributes unit, role and meaning; checksummed.
+struct Dataset {
+  std::string name;
+  std::string_view unit, role, meaning;
+  Number number = Number::real;
+  std::size_t rows = 0, components = 1;
+  const void* data = nullptr;
+};
+void write_dataset(hid_t group, const Dataset& dataset);
+
+}  // namespace breccia::h5

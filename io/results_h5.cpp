@@ -1,0 +1,173 @@
+#include "io/results_h5.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <vector>
+
+#include "core/row_order.hpp"
+#include "io/file_trouble.hpp"
+#include "io/h5.hpp"
+#include "io/write_aside.hpp"
+
+namespace breccia {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class T>
+constexpr h5::Number number_of = h5::Number::real;
+template <>
+constexpr h5::Number number_of<Gid> = h5::Number::id;
+template <>
+constexpr h5::Number number_of<std::uint8_t> = h5::Number::byte;
+static_assert(sizeof(Vec3) == 3 * sizeof(double), "a Vec3 is written as three numbers");
+template <class T>
+constexpr std::size_t components_of = 1;
+template <>
+constexpr std::size_t components_of<Vec3> = 3;
+
+bool stays(Role role) { return role == Role::identity || role == Role::reference; }
+bool changes(Role role) { return role == Role::history || role == Role::state; }
+
+template <class T>
+void write_rows(hid_t group, const ColumnInfo& info, std::string_view role, const std::vector<T>& rows) {
+  h5::write_dataset(group, {std::string(info.name), info.unit, role, info.meaning, number_of<T>, rows.size(),
+                            components_of<T>, rows.data()});
+}
+
+/// One dataset for each column of a wanted role that the scene has, its rows in the given order.
+template <class Table>
+void write_columns(hid_t group, const Table& table, std::span<const Row> order, bool (*wanted)(Role)) {
+  table.for_each_column([&]<class T>(const ColumnInfo& info, const std::vector<T>& column) {
+    if constexpr (!std::is_same_v<T, Row>) {  // rows of this rank mean nothing outside; all are scratch
+      if (!wanted(info.role) || column.empty()) return;
+      std::vector<T> rows;
+      rows.reserve(order.size());
+      for (const Row row : order) rows.push_back(column[row]);
+      write_rows(group, info, name_of(info.role), rows);
+    }
+  });
+}
+
+void write_states(hid_t group, const BondTable& bonds, std::span<const Row> order) {
+  std::vector<std::uint8_t> states;
+  states.reserve(order.size());
+  for (const Row row : order) states.push_back(static_cast<std::uint8_t>(bond_state(bonds, row)));
+  const ColumnInfo info{"BondState", "state",      "1",
+                        Role::state, Need::always, "0 intact, 1 broken in tension, 2 broken in shear"};
+  write_rows(group, info, "derived", states);
+}
+
+/// The most that these columns can take in the file: they are stored as they are where deflate gains nothing.
+template <class Table>
+std::size_t bytes_of(const Table& table, bool (*wanted)(Role)) {
+  std::size_t bytes = 0;
+  table.for_each_column([&]<class T>(const ColumnInfo& info, const std::vector<T>& column) {
+    // 8 kB: header, attributes and index of chunks; 1/256: check sums, and the index of very many chunks
+    if (wanted(info.role) && !column.empty()) bytes += table.size * sizeof(T) * 257 / 256 + 8192;
+  });
+  return bytes;
+}
+
+constexpr std::size_t bytes_of_group = 65536;  ///< of the groups around the datasets, and their attributes
+
+// HDF5 changes a file in place. When the disk is full half-way, the new links are in the file and what they
+// lead to is not, and then even the older frames cannot be listed (tried: "addr overflow"); its own exit
+// handler may crash on top. So the space is claimed before HDF5 opens the file, and on closing HDF5 gives
+// back what it did not need. A process that dies in between leaves a file that is too long, which HDF5
+// accepts, never one that is too short, which it refuses.
+
+/// Makes the file `bytes` longer, or leaves it as it was. Returns its size before.
+std::uintmax_t claim_space(const fs::path& path, std::size_t bytes) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (file < 0) fail_to_write(path, errno);
+  const off_t size = ::lseek(file, 0, SEEK_END);
+  int error = size < 0 ? errno : ::posix_fallocate(file, size, static_cast<off_t>(bytes));
+  if (error == EINVAL || error == EOPNOTSUPP) error = 0;  // the file system cannot: as good as it gets
+  if (error != 0 && size >= 0 && ::ftruncate(file, size) != 0) error = errno;
+  ::close(file);
+  if (error != 0) fail_to_write(path, error);
+  return static_cast<std::uintmax_t>(size);
+}
+
+/// Opens the file with room for `bytes` more, lets `write(file)` add `group`, and closes it. Where that
+/// fails, the half-written group is taken out again.
+template <class Write>
+void append(const fs::path& path, std::size_t bytes, const std::string& group, Write&& write) {
+  h5::be_silent();
+  claim_space(path, bytes + bytes_of_group);
+  try {
+    h5::Handle file = h5::open_file(path.string());
+    try {
+      h5::remove_if_there(file, group);
+      write(static_cast<hid_t>(file));
+    } catch (const h5::Failure&) {
+      H5Ldelete(file, group.c_str(), H5P_DEFAULT);  // its success changes nothing in what is reported
+      throw;
+    }
+    file.close("close");
+  } catch (const h5::Failure& failure) {
+    fail_to_write(path, failure.what());
+  }
+  flush_to_disk(path);
+}
+
+std::string name_of_run(int run) { return fmt::format("run-{}", run); }
+
+}  // namespace
+
+void create_results(const fs::path& file, std::string_view case_text) {
+  h5::be_silent();
+  const fs::path aside = name_aside(file);
+  write_aside(aside, "");
+  try {
+    claim_space(aside, case_text.size() + bytes_of_group);  // so that a full disk is told by the system, not by HDF5
+    h5::Handle made = h5::create_file(aside.string());
+    h5::write_attribute(made, "version", std::string_view(BRECCIA_VERSION));
+    h5::write_attribute(made, "case", case_text);
+    made.close("close");
+  } catch (const h5::Failure& failure) {
+    std::error_code ignored;
+    fs::remove(aside, ignored);
+    fail_to_write(file, failure.what());
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(aside, ignored);
+    throw;
+  }
+  move_into_place(aside, file);
+}
+
+void begin_run(const fs::path& file, int run, std::span<const std::pair<std::string, double>> attributes,
+               const ParticleTable& particles, const BondTable& bonds) {
+  const std::string name = name_of_run(run);
+  append(file, bytes_of(particles, stays) + bytes_of(bonds, stays), name, [&](hid_t root) {
+    const h5::Handle group = h5::create_group(root, name);
+    for (const auto& [key, value] : attributes) h5::write_attribute(group, key.c_str(), value);
+    write_columns(h5::create_group(group, "particles"), particles, rows_by_gid(particles), stays);
+    write_columns(h5::create_group(group, "bonds"), bonds, rows_by_ends(bonds), stays);
+  });
+}
+
+void append_frame(const fs::path& file, int run, int frame, const FrameStamp& stamp,
+                  const ParticleTable& particles, const BondTable& bonds) {
+  const std::string name = fmt::format("{}/frame-{:03}", name_of_run(run), frame);
+  const std::size_t bytes = bytes_of(particles, changes) + bytes_of(bonds, changes) + bonds.size + 8192;
+  append(file, bytes, name, [&](hid_t root) {
+    const h5::Handle group = h5::create_group(root, name);
+    h5::write_attribute(group, "time_s", stamp.time_s);
+    h5::write_attribute(group, "step", stamp.step);
+    h5::write_attribute(group, "axial_strain", stamp.axial_strain);
+    write_columns(h5::create_group(group, "particles"), particles, rows_by_gid(particles), changes);
+    const h5::Handle bond_group = h5::create_group(group, "bonds");
+    const std::vector<Row> order = rows_by_ends(bonds);
+    write_columns(bond_group, bonds, order, changes);
+    write_states(bond_group, bonds, order);
+  });
+}
+
+}  // namespace breccia

@@ -1,0 +1,18 @@
+// summary.json, and the table that a program ends with.
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "core/summary.hpp"
+
+namespace breccia {
+
+/// Writes the summary; keys are the names of the fields, what is absent or not finite is null.
+/// @throws FileTrouble
+void write_summary(const std::filesystem::path& file, const SeriesSummary& series);
+
+/// For the terminal: a table with one line per run, the line of peaks if there is one, warnings, where the
+/// time went, where the files are. Columns without a value in any run are left out. Lines end with '\n'.
+std::string format_summary_table(const SeriesSummary& series, const std::filesystem::path& folder);
+
+}  // namespace breccia
