@@ -33,29 +33,28 @@ void add_spring(const ElasticNetwork::Spring& s, bool is_hi, const Eigen::Vector
 
 }  // namespace
 
-ElasticNetwork elastic_network(const Assembly& a, double young, double shear_ratio, int threads) {
+ElasticNetwork elastic_network(const ParticleTable& p, const BondTable& b, bool rotation, int threads,
+                               const std::function<SpringConstants(std::size_t)>& constants) {
   ElasticNetwork net;
-  net.particles = a.particles.size;
+  net.particles = p.size;
   net.threads = threads;
-  const auto& p = a.particles;
-  const auto& b = a.bonds;
   net.springs.resize(b.size);
   net.first_entry.assign(net.particles + 1, 0);
   for (std::size_t k = 0; k < b.size; ++k) {
     const Row lo = b.row_lo[k], hi = b.row_hi[k];
-    const double sum = p.radius[lo] + p.radius[hi];
-    const double k_n = young * b.area[k] / strain_length_of(b.rest_length[k], sum);
-    net.springs[k] = {lo, hi, (1.0 / b.rest_length[k]) * (p.reference_position[hi] - p.reference_position[lo]), k_n,
-                      shear_ratio * k_n, b.rest_length[k] * p.radius[lo] / sum, b.rest_length[k] * p.radius[hi] / sum};
+    const auto [normal, shear] = constants(k);
+    const double arm_ratio = rotation ? b.rest_length[k] / (p.radius[lo] + p.radius[hi]) : 0.0;
+    net.springs[k] = {lo, hi, (1.0 / b.rest_length[k]) * (p.reference_position[hi] - p.reference_position[lo]),
+                      normal, shear, arm_ratio * p.radius[lo], arm_ratio * p.radius[hi]};
     ++net.first_entry[lo + 1];
     ++net.first_entry[hi + 1];
   }
   for (std::size_t k = 0; k < net.particles; ++k) net.first_entry[k + 1] += net.first_entry[k];
   net.entries.resize(2 * b.size);
-  std::vector<Index> next(net.first_entry.begin(), net.first_entry.end() - 1);
+  std::vector<std::uint32_t> next(net.first_entry.begin(), net.first_entry.end() - 1);
   for (std::size_t k = 0; k < b.size; ++k) {
-    net.entries[next[b.row_lo[k]]++] = static_cast<Index>(k << 1);
-    net.entries[next[b.row_hi[k]]++] = static_cast<Index>(k << 1 | 1u);
+    net.entries[next[b.row_lo[k]]++] = static_cast<std::uint32_t>(k << 1);
+    net.entries[next[b.row_hi[k]]++] = static_cast<std::uint32_t>(k << 1 | 1u);
   }
   return net;
 }
@@ -64,7 +63,7 @@ void apply_stiffness(const ElasticNetwork& net, const Eigen::VectorXd& u, Eigen:
   for_rows(net.particles, net.threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
       Vec3 force, torque;
-      for (Index e = net.first_entry[p]; e < net.first_entry[p + 1]; ++e)
+      for (std::uint32_t e = net.first_entry[p]; e < net.first_entry[p + 1]; ++e)
         add_spring(net.springs[net.entries[e] >> 1], net.entries[e] & 1u, u, force, torque);
       put(forces, 6 * p, force);
       put(forces, 6 * p + 3, torque);
@@ -95,7 +94,12 @@ Eigen::VectorXd stiffness_diagonal(const ElasticNetwork& net) {
 }  // namespace
 
 ElasticResponse probe(const Assembly& a, double young, double shear_ratio, bool rough, int threads) {
-  const ElasticNetwork net = elastic_network(a, young, shear_ratio, threads);
+  const ParticleTable& p = a.particles;
+  const ElasticNetwork net = elastic_network(p, a.bonds, !p.spin.empty(), threads, [&](std::size_t k) {
+    const double radii = p.radius[a.bonds.row_lo[k]] + p.radius[a.bonds.row_hi[k]];
+    const double k_n = young * a.bonds.area[k] / strain_length_of(a.bonds.rest_length[k], radii);
+    return SpringConstants{k_n, shear_ratio * k_n};
+  });
   const auto n = static_cast<Eigen::Index>(6 * net.particles);
   Eigen::VectorXd inverse_diagonal = stiffness_diagonal(net);
   inverse_diagonal = (inverse_diagonal.array() > 0.0).select(inverse_diagonal.cwiseInverse(), 0.0);

@@ -2,6 +2,7 @@
 // time step.
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 
 #include "core/assembly.hpp"
 
@@ -16,14 +17,19 @@ struct ElasticNetwork {
     double arm_lo, arm_hi;  ///< m
   };
   std::vector<Spring> springs;
-  std::vector<Index> first_entry, entries;  ///< per particle: spring << 1 | particle is hi
+  std::vector<std::uint32_t> first_entry, entries;  ///< per particle: spring << 1 | particle is hi
   std::size_t particles = 0;
   int threads = 1;
 };
 
-/// @param shear_ratio  k_s/k_n
-/// @param young        Pa; alpha is taken as 1
-ElasticNetwork elastic_network(const Assembly& assembly, double young, double shear_ratio, int threads);
+struct SpringConstants {
+  double normal, shear;  ///< N/m
+};
+
+/// @param rotation   false: no arms, particles pass no torque
+/// @param constants  called with the row of each bond
+ElasticNetwork elastic_network(const ParticleTable& particles, const BondTable& bonds, bool rotation, int threads,
+                               const std::function<SpringConstants(std::size_t)>& constants);
 
 /// forces = K displacements; both of 6 * particles.
 void apply_stiffness(const ElasticNetwork& network, const Eigen::VectorXd& displacements, Eigen::VectorXd& forces);
@@ -35,6 +41,8 @@ struct ElasticResponse {
   long iterations = 0;       ///< of conjugate gradients
 };
 
+/// @param young        Pa; alpha is taken as 1
+/// @param shear_ratio  k_s/k_n
 /// @param rough  lateral motion of the layers fixed
 /// @throws BadInput when the specimen is not connected from end to end
 ElasticResponse probe(const Assembly& assembly, double young, double shear_ratio, bool rough, int threads);

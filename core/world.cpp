@@ -47,9 +47,9 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.first_top = assembly.first_top;
   set_masses(w.particles, material.density);
   set_bond_constants(w);
-  w.critical_dt = stable_time_step(w.particles, w.bonds, w.law.shear_ratio,
-                                   std::max(options.global_damping.translation, options.global_damping.rotation),
-                                   options.threads);
+  w.critical_dt = critical_time_step(w.particles, w.bonds, w.law.shear_ratio,
+                                     std::max(options.global_damping.translation, options.global_damping.rotation),
+                                     options.threads);
   w.dt = options.safety * w.critical_dt;
   Assembly with_masses = assembly;
   with_masses.particles.mass = w.particles.mass;

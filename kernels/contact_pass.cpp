@@ -36,7 +36,9 @@ void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, st
         pressed = true;
       } else {
         history.shear_force[c] = {};
-        history.free_length[c] = in.radius[in.row_lo[c]] + in.radius[in.row_hi[c]];
+        // a pair that overlapped unbonded from the start presses at its initial distance until it has parted
+        const double touch = in.radius[in.row_lo[c]] + in.radius[in.row_hi[c]];
+        if (dot(l, l) >= touch * touch) history.free_length[c] = touch;
       }
       block.fx[k] = force.x, block.fy[k] = force.y, block.fz[k] = force.z;
       block.tx[k] = turn.x, block.ty[k] = turn.y, block.tz[k] = turn.z;
