@@ -52,7 +52,9 @@ struct Checks {
     return given == layer.end() || given->second.place.empty() ? file : given->second.place;
   }
   bool has(std::string_view name) const { return layer.contains(name); }
-  [[noreturn]] void no(std::string_view name, const std::string& text) const { refuse(place(name), name, text); }
+  [[noreturn]] void no(std::string_view name, const std::string& text) const {
+    refuse(place(name), name, text);
+  }
 
   void specimen() const {
     if (!c.specimen.file && !c.specimen.pack)
@@ -68,15 +70,18 @@ struct Checks {
     const Body& body = c.specimen.body;
     const bool box = body.shape == Shape::box, disc = body.shape == Shape::disc;
     if (!has("specimen.diameter")) no("specimen.diameter", "missing; give the nominal diameter, \"150 mm\"");
-    if (!has("specimen.height")) no("specimen.height", "missing; give the nominal height along the axis, \"300 mm\"");
-    if (box && !has("specimen.depth")) no("specimen.depth", "missing; a box has its width along x as diameter, and a depth");
+    if (!has("specimen.height"))
+      no("specimen.height", "missing; give the nominal height along the axis, \"300 mm\"");
+    if (box && !has("specimen.depth"))
+      no("specimen.depth", "missing; a box has its width along x as diameter, and a depth");
     if (!box && has("specimen.depth")) no("specimen.depth", "belongs to shape = \"box\"; leave it out");
     if (test == "bts" && !disc) no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
     const bool wrong = (disc && (test == "ucs" || test == "triaxial")) || (box && test == "triaxial");
     if (wrong) {
-      const std::string text = fmt::format("{}: specimen.shape \"{}\" is not in this version for breccia-{}; valid: {}",
-                                           place("specimen.shape"), disc ? "disc" : "box", test,
-                                           test == "ucs" ? "\"cylinder\", \"box\"" : "\"cylinder\"");
+      const std::string text =
+          fmt::format("{}: specimen.shape \"{}\" is not in this version for breccia-{}; valid: {}",
+                      place("specimen.shape"), disc ? "disc" : "box", test,
+                      test == "ucs" ? "\"cylinder\", \"box\"" : "\"cylinder\"");
       throw BadInput(text);
     }
   }
@@ -96,27 +101,31 @@ struct Checks {
     }
     if (!sieves) return;
     if (sizes.sieve_openings.size() != sizes.sieve_passing.size() || sizes.sieve_openings.size() < 2)
-      no(passing, fmt::format("{} values for {} openings; give as many of both, two or more", sizes.sieve_passing.size(),
-                              sizes.sieve_openings.size()));
+      no(passing, fmt::format("{} values for {} openings; give as many of both, two or more",
+                              sizes.sieve_passing.size(), sizes.sieve_openings.size()));
     for (std::size_t i = 1; i < sizes.sieve_openings.size(); ++i)
-      if (!(sizes.sieve_openings[i] > sizes.sieve_openings[i - 1])) no(openings, "two openings are equal; join them");
+      if (!(sizes.sieve_openings[i] > sizes.sieve_openings[i - 1]))
+        no(openings, "two openings are equal; join them");
     if (sizes.sieve_passing.back() != 1)
-      no(passing, fmt::format("must end with 1, not {}: all passes the last sieve", sizes.sieve_passing.back()));
+      no(passing,
+         fmt::format("must end with 1, not {}: all passes the last sieve", sizes.sieve_passing.back()));
   }
 
   void loading() const {
     if (test != "ucs") return;
     for (double p : c.test.confinement)
       if (p != 0)
-        no("test.confinement", fmt::format("{}: an unconfined test has none; leave it out, or use breccia-triaxial",
-                                           format_quantity(p, dimension::stress)));
+        no("test.confinement",
+           fmt::format("{}: an unconfined test has none; leave it out, or use breccia-triaxial",
+                       format_quantity(p, dimension::stress)));
   }
 
   /// A [[material.at]] that no run uses is a slip of the pen, unless --set has chosen other confinements.
   void confinements(const std::vector<ConfinementLayer>& groups) const {
     if (test == "bts" || place("test.confinement") == "--set") return;
     std::string list;
-    for (double p : c.test.confinement) list += (list.empty() ? "" : ", ") + format_quantity(p, dimension::stress);
+    for (double p : c.test.confinement)
+      list += (list.empty() ? "" : ", ") + format_quantity(p, dimension::stress);
     for (const ConfinementLayer& group : groups) {
       const bool used = std::any_of(c.test.confinement.begin(), c.test.confinement.end(),
                                     [&](double p) { return same_confinement(p, group.confinement); });
@@ -139,31 +148,36 @@ std::filesystem::path find_specimen(const std::filesystem::path& case_file, cons
   std::error_code ignored;
   if (std::filesystem::is_regular_file(file, ignored)) return file;
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", ignored))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", ignored))
     if (entry.path().extension() == file.extension()) names.push_back(entry.path().filename().string());
   const std::string best = nearest(file.filename().string(), names);
   refuse(given.place, "specimen.file",
          fmt::format("no file {}{}", quote(file.string()),
-                     best.empty() ? "; the path starts at the case's folder" : "; did you mean " + quote(best) + "?"));
+                     best.empty() ? "; the path starts at the case's folder"
+                                  : "; did you mean " + quote(best) + "?"));
 }
 
 }  // namespace
 
-Case load_case(const std::filesystem::path& file, const std::vector<std::string>& sets, const std::string& test) {
+Case load_case(const std::filesystem::path& file, const std::vector<std::string>& sets,
+               const std::string& test) {
   Source from_file = read_case_source(read_toml(file), test);
   const Source from_set = read_set_source(sets, test);
   for (const std::string& table : from_set.tables) erase_below(from_file.layer, table);
 
   Layer layer = part_of(from_file.layer, false);
   lay_over(layer, part_of(from_set.layer, false));
-  if (test == "pack") std::erase_if(layer, [](const auto& entry) { return !entry.first.starts_with("specimen."); });
+  if (test == "pack")
+    std::erase_if(layer, [](const auto& entry) { return !entry.first.starts_with("specimen."); });
   for (const Key& key : all_keys())
     if (takes_standard(key, layer, test)) layer[std::string(key.name)] = {read_standard(key, test), ""};
 
   Case c;
   c.source = file;
   for (const Key& key : all_keys())
-    if (const auto given = layer.find(key.name); given != layer.end() && key.store) key.store(c, given->second.reading);
+    if (const auto given = layer.find(key.name); given != layer.end() && key.store)
+      key.store(c, given->second.reading);
   const Checks checks{layer, c, test, file.string()};
   checks.specimen();
   checks.loading();
@@ -177,7 +191,10 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
     return c;
   }
 
-  MaterialLayers layers{{}, {}, part_of(from_file.layer, true), from_file.at.value_or(std::vector<ConfinementLayer>{}),
+  MaterialLayers layers{{},
+                        {},
+                        part_of(from_file.layer, true),
+                        from_file.at.value_or(std::vector<ConfinementLayer>{}),
                         part_of(from_set.layer, true)};
   if (from_set.at) layers.given_at = *from_set.at;
   checks.confinements(layers.given_at);

@@ -10,13 +10,15 @@ namespace breccia {
 namespace {
 
 constexpr std::string_view material = "material.", at_tables = "material.at", pack = "specimen.pack.";
-constexpr Key at_confinement{.name = "material.at.confinement", .dimension = dimension::stress, .range = {.low = 0}};
+constexpr Key at_confinement{
+    .name = "material.at.confinement", .dimension = dimension::stress, .range = {.low = 0}};
 
 std::string last_part(std::string_view name) { return std::string(name.substr(name.rfind('.') + 1)); }
 
 bool is_table_name(const std::string& name) {
   const auto keys = all_keys();
-  return std::any_of(keys.begin(), keys.end(), [&](const Key& key) { return key.name.starts_with(name + "."); });
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const Key& key) { return key.name.starts_with(name + "."); });
 }
 
 /// Walks the tables of one file. In a preset `shown` drops "material." from the names that a user reads.
@@ -53,7 +55,8 @@ struct Walker {
     } catch (const BadInput& error) {
       if (!preset) throw;
       std::string text = error.what();  // a preset has no [material] around its keys
-      if (const auto found = text.find(material); found != std::string::npos) text.erase(found, material.size());
+      if (const auto found = text.find(material); found != std::string::npos)
+        text.erase(found, material.size());
       throw BadInput(text);
     }
   }
@@ -99,8 +102,9 @@ struct Walker {
       if (group.confinement < 0)
         refuse(entry.place, name, "confinement is missing; name the one that these keys are for");
       if (find_confinement(result, group.confinement))
-        refuse(group.place, name,
-               format_quantity(group.confinement, dimension::stress) + " is given twice; join the two tables");
+        refuse(
+            group.place, name,
+            format_quantity(group.confinement, dimension::stress) + " is given twice; join the two tables");
       walk(others, std::string(material), group.layer);
       check_rivals(group.layer);
       result.push_back(std::move(group));
@@ -112,7 +116,8 @@ struct Walker {
       if (key.instead_of.empty()) continue;
       const auto one = layer.find(key.name), other = layer.find(key.instead_of);
       if (one != layer.end() && other != layer.end())
-        refuse(one->second.place, shown(one->first), fmt::format("excludes {}; give one of the two", shown(other->first)));
+        refuse(one->second.place, shown(one->first),
+               fmt::format("excludes {}; give one of the two", shown(other->first)));
     }
     const auto file = layer.find("specimen.file"), packed = layer.lower_bound(pack);
     if (file != layer.end() && packed != layer.end() && packed->first.starts_with(pack))

@@ -43,7 +43,8 @@ Layer laid(const MaterialLayers& m, const Layer* preset_at, const Layer* given_a
 
 }  // namespace
 
-Source read_preset(const std::string& name, const std::string& place, const std::filesystem::path& case_folder) {
+Source read_preset(const std::string& name, const std::string& place,
+                   const std::filesystem::path& case_folder) {
   const auto folders = material_folders(case_folder);
   std::error_code ignored;
   if (name.find('/') == std::string::npos)
@@ -53,11 +54,12 @@ Source read_preset(const std::string& name, const std::string& place, const std:
     }
   const auto present = presets_in(folders);
   if (present.empty())
-    refuse(place, "material.preset", fmt::format("no preset {}: no materials/*.toml found; set BRECCIA_DATA", quote(name)));
+    refuse(place, "material.preset",
+           fmt::format("no preset {}: no materials/*.toml found; set BRECCIA_DATA", quote(name)));
   const std::string best = nearest(name, present);
   refuse(place, "material.preset",
-         fmt::format("no preset {}; {}valid: {}", quote(name), best.empty() ? "" : "did you mean " + quote(best) + "? ",
-                     quote_list(present)));
+         fmt::format("no preset {}; {}valid: {}", quote(name),
+                     best.empty() ? "" : "did you mean " + quote(best) + "? ", quote_list(present)));
 }
 
 Layer material_at(const MaterialLayers& m, double confinement) {
@@ -66,7 +68,8 @@ Layer material_at(const MaterialLayers& m, double confinement) {
 
 Layer material_base(const MaterialLayers& m) { return laid(m, nullptr, nullptr); }
 
-Material make_material(const Layer& layer, const FeatureCase& features, Elasticity elasticity, const std::string& file) {
+Material make_material(const Layer& layer, const FeatureCase& features, Elasticity elasticity,
+                       const std::string& file) {
   const auto need = [&](const char* name, const char* otherwise = nullptr, const char* unless = nullptr) {
     const std::string full = std::string("material.") + name;
     if (layer.contains(full) || (otherwise && layer.contains(std::string("material.") + otherwise))) return;
@@ -91,11 +94,13 @@ Material make_material(const Layer& layer, const FeatureCase& features, Elastici
   }
   Material material;
   for (const auto& [name, given] : layer)
-    if (const Key* key = find_key(name); key && key->store_material) key->store_material(material, given.reading);
+    if (const Key* key = find_key(name); key && key->store_material)
+      key->store_material(material, given.reading);
   constexpr double largest = 0.25;  // MODEL: kappa = (1 - 4 nu)/(1 + nu) falls to zero there
   if (elasticity == Elasticity::matched && material.poisson_ratio > largest)
     refuse(layer.find("material.poisson_ratio")->second.place, "material.poisson_ratio",
-           fmt::format("must be at most {} with bonds.elasticity = \"matched\", not {}", largest, material.poisson_ratio));
+           fmt::format("must be at most {} with bonds.elasticity = \"matched\", not {}", largest,
+                       material.poisson_ratio));
   return material;
 }
 

@@ -17,12 +17,15 @@ struct MaterialLayers {
   Layer set;  ///< --set
 };
 
-/// Reads the preset called `name` from materials/ beside the case, beside its folder, in $BRECCIA_DATA, in the source tree.
+/// Reads the preset called `name` from materials/ beside the case, beside its folder, in $BRECCIA_DATA, in
+/// the source tree.
 /// @param place  where the name was given
 /// @throws BadInput: unknown name, with those present; or what is wrong in the preset's file
-Source read_preset(const std::string& name, const std::string& place, const std::filesystem::path& case_folder);
+Source read_preset(const std::string& name, const std::string& place,
+                   const std::filesystem::path& case_folder);
 
-/// The keys in force at a confinement: --set, the case's [[material.at]], [material], the preset's [[at]], the preset.
+/// The keys in force at a confinement: --set, the case's [[material.at]], [material], the preset's [[at]],
+/// the preset.
 Layer material_at(const MaterialLayers&, double confinement);
 
 /// The keys in force where no confinement is named; a confinement changes some of them.

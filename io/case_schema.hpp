@@ -1,5 +1,5 @@
-// One declaration per key of a case: reading, checks, unknown keys, the resolved case and the printed reference
-// all derive from it.
+// One declaration per key of a case: reading, checks, unknown keys, the resolved case and the printed
+// reference all derive from it.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -32,19 +32,19 @@ struct Range {
 
 /// One key of a case. Words are separated by blanks.
 struct Key {
-  std::string_view name;               ///< with its table: "test.platen_speed"
+  std::string_view name;  ///< with its table: "test.platen_speed"
   Kind kind = Kind::quantity;
   Dimension dimension{};
   std::string_view standard{};         ///< the default as one writes it; empty: none
   std::string_view standard_of_bts{};  ///< where the Brazilian test has another
   Range range{};
-  std::string_view words{};            ///< valid words
-  std::string_view later{};            ///< words (or true) that a later version brings: refused by name
-  std::size_t count = 0;               ///< of quantities; 0: one or more
-  bool rising = false;                 ///< quantities never fall
-  std::string_view instead_of{};       ///< the key that this one replaces
-  std::string_view not_for{};          ///< tests that refuse it
-  std::string_view why_not{};          ///< the reason
+  std::string_view words{};       ///< valid words
+  std::string_view later{};       ///< words (or true) that a later version brings: refused by name
+  std::size_t count = 0;          ///< of quantities; 0: one or more
+  bool rising = false;            ///< quantities never fall
+  std::string_view instead_of{};  ///< the key that this one replaces
+  std::string_view not_for{};     ///< tests that refuse it
+  std::string_view why_not{};     ///< the reason
   std::string_view meaning{};
   void (*store)(Case&, const Reading&) = nullptr;
   void (*store_material)(Material&, const Reading&) = nullptr;

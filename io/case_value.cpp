@@ -28,7 +28,8 @@ void check_range(const Key& key, double value, const std::string& place, Dimensi
   const Range& r = key.range;
   const bool below = r.low_open ? value <= r.low : value < r.low;
   const bool above = r.high_open ? value >= r.high : value > r.high;
-  if (below || above) refuse(place, key.name, fmt::format("must be {}, not {}", describe(r, d), format_quantity(value, d)));
+  if (below || above)
+    refuse(place, key.name, fmt::format("must be {}, not {}", describe(r, d), format_quantity(value, d)));
 }
 
 double read_quantity(const Key& key, const TomlNode& node) {
@@ -100,7 +101,9 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
 std::string read_word(const Key& key, const TomlNode& node) {
   const auto words = split_words(key.words);
   const auto* word = std::get_if<std::string>(&node.value);
-  if (!word) refuse(node.place, key.name, fmt::format("a word is wanted, not {}; valid: {}", shown(node), quote_list(words)));
+  if (!word)
+    refuse(node.place, key.name,
+           fmt::format("a word is wanted, not {}; valid: {}", shown(node), quote_list(words)));
   if (contains(split_words(key.later), *word)) refuse_later(key, node);
   if (contains(words, *word)) return *word;
   const std::string number = key.kind == Kind::word_or_number ? ", or a number" : "";
@@ -117,10 +120,18 @@ Reading read_value(const Key& key, const TomlNode& node) {
   Reading reading;
   if (key.later == "*") refuse_later(key, node);
   switch (key.kind) {
-    case Kind::quantity: reading.number = read_quantity(key, node); break;
-    case Kind::quantities: reading.numbers = read_quantities(key, node); break;
-    case Kind::whole_number: reading.whole = read_whole(key, node); break;
-    case Kind::word: reading.word = read_word(key, node); break;
+    case Kind::quantity:
+      reading.number = read_quantity(key, node);
+      break;
+    case Kind::quantities:
+      reading.numbers = read_quantities(key, node);
+      break;
+    case Kind::whole_number:
+      reading.whole = read_whole(key, node);
+      break;
+    case Kind::word:
+      reading.word = read_word(key, node);
+      break;
     case Kind::word_or_number:
       if (std::holds_alternative<std::string>(node.value))
         reading.word = read_word(key, node);
@@ -158,13 +169,19 @@ std::string write_value(const Key& key, const Reading& reading) {
     return key.dimension == dimension::number ? text : toml_string(text);
   };
   switch (key.kind) {
-    case Kind::quantity: return quantity(reading.number);
-    case Kind::whole_number: return fmt::format("{}", reading.whole);
-    case Kind::boolean: return reading.flag ? "true" : "false";
+    case Kind::quantity:
+      return quantity(reading.number);
+    case Kind::whole_number:
+      return fmt::format("{}", reading.whole);
+    case Kind::boolean:
+      return reading.flag ? "true" : "false";
     case Kind::word:
-    case Kind::text: return toml_string(reading.word);
-    case Kind::word_or_number: return reading.word.empty() ? quantity(reading.number) : toml_string(reading.word);
-    case Kind::quantities: break;
+    case Kind::text:
+      return toml_string(reading.word);
+    case Kind::word_or_number:
+      return reading.word.empty() ? quantity(reading.number) : toml_string(reading.word);
+    case Kind::quantities:
+      break;
   }
   std::string list;
   for (double value : reading.numbers) list += (list.empty() ? "" : ", ") + quantity(value);

@@ -19,7 +19,9 @@ void write_at(std::string& text, const ConfinementLayer& at, const Layer& base) 
   for (const Key& key : all_keys()) {
     const auto here = at.layer.find(key.name), there = base.find(key.name);
     if (here == at.layer.end()) continue;
-    if (there != base.end() && write_value(key, here->second.reading) == write_value(key, there->second.reading)) continue;
+    if (there != base.end() &&
+        write_value(key, here->second.reading) == write_value(key, there->second.reading))
+      continue;
     write_line(lines, key, here->second.reading);
   }
   if (lines.empty()) return;
@@ -30,15 +32,22 @@ void write_at(std::string& text, const ConfinementLayer& at, const Layer& base) 
 std::string valid_values(const Key& key) {
   if (key.later == "*") return "not in this version";
   switch (key.kind) {
-    case Kind::boolean: return key.later == "true" ? "false" : "true, false";
-    case Kind::word: return quote_list(split_words(key.words));
-    case Kind::word_or_number: return quote_list(split_words(key.words)) + ", number " + describe(key.range, key.dimension);
-    case Kind::text: return "text";
-    default: break;
+    case Kind::boolean:
+      return key.later == "true" ? "false" : "true, false";
+    case Kind::word:
+      return quote_list(split_words(key.words));
+    case Kind::word_or_number:
+      return quote_list(split_words(key.words)) + ", number " + describe(key.range, key.dimension);
+    case Kind::text:
+      return "text";
+    default:
+      break;
   }
   const std::string range = describe(key.range, key.dimension);
   const std::string what = key.kind == Kind::whole_number ? "a whole number" : describe(key.dimension);
-  const std::string list = key.kind != Kind::quantities ? "" : key.count ? fmt::format("{} x ", key.count) : "list of ";
+  const std::string list = key.kind != Kind::quantities ? ""
+                           : key.count                  ? fmt::format("{} x ", key.count)
+                                                        : "list of ";
   return list + what + (range.empty() ? "" : ", ") + range + (key.rising ? ", rising" : "");
 }
 
@@ -68,14 +77,15 @@ std::string write_case(const Layer& keys, const Layer& base, const std::vector<C
 }
 
 std::string describe_keys(const std::string& test) {
-  std::string text = fmt::format("keys of a case for breccia-{} (a quantity: \"3.8 GPa\", or a bare number in SI)\n", test);
+  std::string text =
+      fmt::format("keys of a case for breccia-{} (a quantity: \"3.8 GPa\", or a bare number in SI)\n", test);
   std::string_view table;
   for (const Key& key : all_keys()) {
     if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) continue;
     if (table_of(key) != table) table = table_of(key), text += fmt::format("\n[{}]\n", table);
     const std::string_view standard = standard_of(key, test);
-    text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), valid_values(key), standard.empty() ? "-" : standard,
-                        key.meaning);
+    text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), valid_values(key),
+                        standard.empty() ? "-" : standard, key.meaning);
     if (key.name == "material.preset")
       text += fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
                           "a table [[material.at]]: keys of the material for one confinement");

@@ -43,12 +43,13 @@ void check_coincident(const Specimen& specimen) {
     return std::make_tuple(p.x, p.y, p.z);
   };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  const auto twin = std::adjacent_find(order.begin(), order.end(), [&](auto a, auto b) { return key(a) == key(b); });
+  const auto twin =
+      std::adjacent_find(order.begin(), order.end(), [&](auto a, auto b) { return key(a) == key(b); });
   if (twin == order.end()) return;
   const SpecimenSphere &first = spheres[twin[0]], &second = spheres[twin[1]];
   const std::string line = first.line > 0 ? fmt::format(" (line {})", first.line) : "";
-  fail<BadInput>("{}: sphere {} has the centre of sphere {}{}; remove one of them", place_of(specimen, second), second.id,
-                 first.id, line);
+  fail<BadInput>("{}: sphere {} has the centre of sphere {}{}; remove one of them",
+                 place_of(specimen, second), second.id, first.id, line);
 }
 
 /// How far a centre lies outside the body; negative inside.
@@ -84,8 +85,8 @@ void check_inside(const Specimen& specimen, const Body& body) {
   fail<BadInput>(
       "{}: the centre of sphere {} lies {} outside the {} ({} of {} spheres beyond the {} allowed); check "
       "specimen.diameter, height, axis and centre",
-      place_of(specimen, *worst), worst->id, millimetres(farthest), describe(body), count, specimen.spheres.size(),
-      millimetres(allowed));
+      place_of(specimen, *worst), worst->id, millimetres(farthest), describe(body), count,
+      specimen.spheres.size(), millimetres(allowed));
 }
 
 }  // namespace

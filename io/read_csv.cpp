@@ -39,7 +39,8 @@ std::size_t check_header(std::string_view line, const LineReader& reader) {
     if (c != ' ' && c != '\t') names += c;
   if (names == header) return columns;
   if (names == std::string(header) + ",group") return most_columns;
-  fail<BadInput>("{}: the header is {}; it must be \"{}\", or that and \",group\"", reader.place(), quote(line), header);
+  fail<BadInput>("{}: the header is {}; it must be \"{}\", or that and \",group\"", reader.place(),
+                 quote(line), header);
 }
 
 }  // namespace
@@ -57,8 +58,8 @@ std::vector<SpecimenSphere> spheres_from_csv(const std::string& name, std::strin
   while (next_row(reader, line)) {
     const std::size_t count = split(line, fields);
     if (count != wanted)
-      fail<BadInput>("{}: {}{} columns, the header has {}", reader.place(), count > most_columns ? "more than " : "",
-                     std::min(count, most_columns), wanted);
+      fail<BadInput>("{}: {}{} columns, the header has {}", reader.place(),
+                     count > most_columns ? "more than " : "", std::min(count, most_columns), wanted);
     SpecimenSphere& sphere = spheres.emplace_back();
     sphere.id = to_id(fields[0], "id", reader);
     sphere.centre = {to_number(fields[1], "x_m", reader), to_number(fields[2], "y_m", reader),

@@ -60,7 +60,8 @@ void read_node(Model& model, const Fields& fields, std::size_t count, const Line
   want(count, 4, "node x y z", reader);
   SpecimenSphere& node = model.nodes.emplace_back();
   node.id = to_id(fields[0], "node", reader);
-  node.centre = {to_number(fields[1], "x", reader), to_number(fields[2], "y", reader), to_number(fields[3], "z", reader)};
+  node.centre = {to_number(fields[1], "x", reader), to_number(fields[2], "y", reader),
+                 to_number(fields[3], "z", reader)};
   node.line = reader.line_number();
   const auto [at, is_new] = model.row.emplace(node.id, model.nodes.size() - 1);
   if (!is_new)
@@ -111,11 +112,20 @@ void read_block(Model& model, LineReader& reader, Block block, const std::string
       continue;
     }
     switch (block) {
-      case Block::nodes: read_node(model, fields, count, reader); break;
-      case Block::radius: read_radius(model, fields, count, reader); break;
-      case Block::group: read_group(model, fields, count, reader); break;
-      case Block::spheres: read_element(model, fields, count, reader); break;
-      case Block::other: break;
+      case Block::nodes:
+        read_node(model, fields, count, reader);
+        break;
+      case Block::radius:
+        read_radius(model, fields, count, reader);
+        break;
+      case Block::group:
+        read_group(model, fields, count, reader);
+        break;
+      case Block::spheres:
+        read_element(model, fields, count, reader);
+        break;
+      case Block::other:
+        break;
     }
   }
   fail<BadInput>("{}: this block has no End", begin);

@@ -20,7 +20,8 @@ std::string ending(const std::filesystem::path& file) {
 
 void check_radii(const std::vector<SpecimenSphere>& spheres, const std::string& name) {
   for (const SpecimenSphere& s : spheres)
-    if (!(s.radius > 0)) fail<BadInput>("{}:{}: sphere {} has radius {}; it must be above 0", name, s.line, s.id, s.radius);
+    if (!(s.radius > 0))
+      fail<BadInput>("{}:{}: sphere {} has radius {}; it must be above 0", name, s.line, s.id, s.radius);
 }
 
 void check_ids(const std::vector<SpecimenSphere>& spheres, const std::string& name) {
@@ -28,10 +29,13 @@ void check_ids(const std::vector<SpecimenSphere>& spheres, const std::string& na
   std::vector<const SpecimenSphere*> sorted;
   sorted.reserve(spheres.size());
   for (const SpecimenSphere& sphere : spheres) sorted.push_back(&sphere);
-  if (!std::is_sorted(sorted.begin(), sorted.end(), by_id)) std::stable_sort(sorted.begin(), sorted.end(), by_id);
-  const auto twice = std::adjacent_find(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->id == b->id; });
+  if (!std::is_sorted(sorted.begin(), sorted.end(), by_id))
+    std::stable_sort(sorted.begin(), sorted.end(), by_id);
+  const auto twice =
+      std::adjacent_find(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->id == b->id; });
   if (twice != sorted.end())
-    fail<BadInput>("{}:{}: id {} is also in line {}; ids must differ", name, twice[1]->line, twice[1]->id, twice[0]->line);
+    fail<BadInput>("{}:{}: id {} is also in line {}; ids must differ", name, twice[1]->line, twice[1]->id,
+                   twice[0]->line);
 }
 
 }  // namespace
@@ -40,8 +44,10 @@ void check_specimen_type(const std::filesystem::path& file) {
   const std::string type = ending(file);
   if (type == ".csv" || type == ".mdpa") return;
   for (const char* later : {".msh", ".h5", ".data", ".lmp", ".lammps", ".lammpstrj", ".dump"})
-    if (type == later) fail<BadInput>("specimen type \"{}\" is not in this version; valid: \".csv\", \".mdpa\"", type);
-  fail<BadInput>("unknown specimen type {} of {}; valid: \".csv\", \".mdpa\"", quote(type), quote(file.filename().string()));
+    if (type == later)
+      fail<BadInput>("specimen type \"{}\" is not in this version; valid: \".csv\", \".mdpa\"", type);
+  fail<BadInput>("unknown specimen type {} of {}; valid: \".csv\", \".mdpa\"", quote(type),
+                 quote(file.filename().string()));
 }
 
 Specimen read_specimen(const std::filesystem::path& file) {

@@ -12,7 +12,7 @@ std::string read_text(const std::filesystem::path& file);
 
 /// Walks through a text; every error names the file and the line.
 class LineReader {
- public:
+public:
   LineReader(std::string name, std::string_view text) : name_(std::move(name)), rest_(text) {}
 
   /// Next line without its end and without blanks around it; false at the end of the text.
@@ -20,7 +20,7 @@ class LineReader {
   std::size_t line_number() const { return number_; }
   std::string place() const;
 
- private:
+private:
   std::string name_;
   std::string_view rest_;
   std::size_t number_ = 0;

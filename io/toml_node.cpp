@@ -16,7 +16,9 @@ struct Converter {
   std::string file;
   bool lines;
 
-  std::string place(std::size_t line) const { return lines && line > 0 ? fmt::format("{}:{}", file, line) : file; }
+  std::string place(std::size_t line) const {
+    return lines && line > 0 ? fmt::format("{}:{}", file, line) : file;
+  }
 
   TomlNode convert(const toml::node& node, std::size_t line) const {
     TomlNode result{TomlDate{}, place(line), line};

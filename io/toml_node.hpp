@@ -24,7 +24,8 @@ struct TomlNode {
 /// @throws BadInput: file (and line) with what is wrong: absent, a folder, empty of sense, not TOML
 TomlNode read_toml(const std::filesystem::path& file);
 
-/// Parses what stands behind "key=" on a command line: a TOML value, or the text itself as a string where it is none.
+/// Parses what stands behind "key=" on a command line: a TOML value, or the text itself as a string where it
+/// is none.
 TomlNode parse_toml_value(const std::string& text, const std::string& place);
 
 /// A text as a TOML string in double quotes, escaped.

@@ -10,89 +10,10 @@
 
 #include "core/error.hpp"
 #include "io/nearest.hpp"
+#include "io/unit_table.hpp"
 
 namespace breccia {
 namespace {
-
-/// One unit is factor x 10^exponent in SI. Decimal units have factor 1, so that they only move the decimal point.
-struct Unit {
-  std::string_view name;
-  Dimension dimension;
-  long double factor = 1;
-  int exponent = 0;
-  bool takes_prefix = false;
-};
-
-constexpr Dimension energy{1, 2, -2}, watt{1, 2, -3}, frequency{0, 0, -1}, volume{0, 3, 0};
-constexpr long double inch = 0.0254L, pound = 0.45359237L, pound_force = 4.4482216152605L;  // exact by definition
-
-constexpr std::array units{
-    Unit{"m", dimension::length, 1, 0, true},
-    Unit{"in", dimension::length, inch},
-    Unit{"ft", dimension::length, 12 * inch},
-    Unit{"g", dimension::mass, 1, -3, true},
-    Unit{"t", dimension::mass, 1, 3},
-    Unit{"lb", dimension::mass, pound},
-    Unit{"lbm", dimension::mass, pound},
-    Unit{"s", dimension::time, 1, 0, true},
-    Unit{"min", dimension::time, 60},
-    Unit{"h", dimension::time, 3600},
-    Unit{"Hz", frequency, 1, 0, true},
-    Unit{"N", dimension::force, 1, 0, true},
-    Unit{"lbf", dimension::force, pound_force},
-    Unit{"kip", dimension::force, 1000 * pound_force},
-    Unit{"kgf", dimension::force, 9.80665L},
-    Unit{"Pa", dimension::stress, 1, 0, true},
-    Unit{"bar", dimension::stress, 1, 5, true},
-    Unit{"atm", dimension::stress, 101325},
-    Unit{"psi", dimension::stress, pound_force / (inch * inch)},
-    Unit{"kpsi", dimension::stress, 1000 * pound_force / (inch * inch)},
-    Unit{"ksi", dimension::stress, 1000 * pound_force / (inch * inch)},
-    Unit{"Mpsi", dimension::stress, 1000000 * pound_force / (inch * inch)},
-    Unit{"J", energy, 1, 0, true},
-    Unit{"W", watt, 1, 0, true},
-    Unit{"cc", volume, 1, -6},
-    Unit{"l", volume, 1, -3, true},
-    Unit{"L", volume, 1, -3, true},
-    Unit{"%", dimension::number, 1, -2},
-};
-
-struct Prefix {
-  std::string_view name;
-  int exponent;
-};
-// "da" stands before "d"; micro is written "u" here, after both Greek letters have become it.
-constexpr std::array prefixes{
-    Prefix{"Q", 30}, Prefix{"R", 27},  Prefix{"Y", 24},  Prefix{"Z", 21},  Prefix{"E", 18},  Prefix{"P", 15},
-    Prefix{"T", 12}, Prefix{"G", 9},   Prefix{"M", 6},   Prefix{"k", 3},   Prefix{"h", 2},   Prefix{"da", 1},
-    Prefix{"d", -1}, Prefix{"c", -2},  Prefix{"m", -3},  Prefix{"u", -6},  Prefix{"n", -9},  Prefix{"p", -12},
-    Prefix{"f", -15}, Prefix{"a", -18}, Prefix{"z", -21}, Prefix{"y", -24}, Prefix{"r", -27}, Prefix{"q", -30}};
-
-std::optional<Unit> find_unit(std::string_view name) {
-  for (const Unit& unit : units)
-    if (unit.name == name) return unit;
-  for (const Prefix& prefix : prefixes) {
-    if (!name.starts_with(prefix.name)) continue;
-    for (Unit unit : units)
-      if (unit.takes_prefix && unit.name == name.substr(prefix.name.size())) {
-        unit.exponent += prefix.exponent;
-        return unit;
-      }
-  }
-  return std::nullopt;
-}
-
-/// Names worth suggesting: every unit, and the prefixes that a laboratory uses.
-std::vector<std::string> unit_names(std::optional<Dimension> only) {
-  std::vector<std::string> names;
-  for (const Unit& unit : units) {
-    if (only && !(unit.dimension == *only)) continue;
-    names.emplace_back(unit.name);
-    if (!unit.takes_prefix || unit.name == "bar" || unit.name == "l" || unit.name == "L") continue;
-    for (const char* prefix : {"k", "M", "G", "m", "u", "c"}) names.push_back(prefix + std::string(unit.name));
-  }
-  return names;
-}
 
 struct Scale {
   Dimension dimension;
@@ -102,7 +23,8 @@ struct Scale {
 
 std::string in_ascii(std::string_view text) {
   std::string result(text);
-  for (const auto& [from, to] : {std::pair{"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u00b7", "*"}, {"\u00b5", "u"}, {"\u03bc", "u"}})
+  for (const auto& [from, to] :
+       {std::pair{"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u00b7", "*"}, {"\u00b5", "u"}, {"\u03bc", "u"}})
     for (std::size_t at; (at = result.find(from)) != std::string::npos;)
       result.replace(at, std::string_view(from).size(), to);
   return result;
@@ -119,7 +41,8 @@ void skip_blanks(std::string_view& text) {
   std::string best = alone ? nearest(name, unit_names(wanted)) : "";
   if (best.empty()) best = nearest(name, unit_names(std::nullopt));
   if (!best.empty()) fail<BadInput>("unknown unit {}; did you mean {}?", quote(name), quote(best));
-  fail<BadInput>("unknown unit {}; {} is wanted, in SI {}", quote(name), describe(wanted), quote(si_unit(wanted)));
+  fail<BadInput>("unknown unit {}; {} is wanted, in SI {}", quote(name), describe(wanted),
+                 quote(si_unit(wanted)));
 }
 
 int parse_power(std::string_view& rest, std::string_view whole) {
@@ -207,7 +130,8 @@ constexpr std::array shown{Shown{dimension::stress, "GPa", 9},
                            Shown{dimension::mass, "kg", 0},
                            Shown{dimension::force, "N", 0}};
 
-/// Shortest digits of a double with the decimal point moved: the value is digits x 10^(exponent + 1 - digits.size()).
+/// Shortest digits of a double with the decimal point moved: the value is digits x 10^(exponent + 1 -
+/// digits.size()).
 std::string decimal(const std::string& digits, int exponent) {
   const int point = exponent + 1, length = static_cast<int>(digits.size());
   if (point > 18 || point < -5) {
@@ -215,7 +139,21 @@ std::string decimal(const std::string& digits, int exponent) {
   }
   if (point <= 0) return fmt::format("0.{:0>{}}", digits, length - point);
   if (point >= length) return fmt::format("{:0<{}}", digits, point);
-  return fmt::format("{}.{}", digits.substr(0, static_cast<std::size_t>(point)), digits.substr(static_cast<std::size_t>(point)));
+  return fmt::format("{}.{}", digits.substr(0, static_cast<std::size_t>(point)),
+                     digits.substr(static_cast<std::size_t>(point)));
+}
+
+/// "500 psi" rather than its 17 digits in MPa: what was given in inches or pounds is shown so, if that is
+/// exact.
+std::string in_pounds(double si, Dimension d) {
+  for (const char* name : {"psi", "in", "lb/ft^3", "lb", "lbf"}) {
+    const Scale scale = parse_unit(name, d);
+    if (!(scale.dimension == d)) continue;
+    std::string text =
+        fmt::format("{:.7g} {}", static_cast<double>(static_cast<long double>(si) / scale.factor), name);
+    if (parse_quantity(text, d) == si) return text;
+  }
+  return "";
 }
 
 }  // namespace
@@ -226,7 +164,9 @@ std::string si_unit(Dimension d) {
     if (s.dimension == d && s.exponent == 0) return std::string(s.unit);
   std::string text;
   for (const auto& [name, power] : {std::pair{"kg", d.kg}, {"m", d.m}, {"s", d.s}})
-    if (power != 0) text += fmt::format("{}{}{}", text.empty() ? "" : "*", name, power == 1 ? "" : fmt::format("^{}", power));
+    if (power != 0)
+      text +=
+          fmt::format("{}{}{}", text.empty() ? "" : "*", name, power == 1 ? "" : fmt::format("^{}", power));
   return text;
 }
 
@@ -259,14 +199,15 @@ double parse_quantity(std::string_view text, Dimension wanted) {
   skip_blanks(rest);
   if (rest.empty()) {
     if (wanted == dimension::number) return plain;
-    fail<BadInput>("{} has no unit; write {}, or the bare number {} for SI ({})", quote(text), example(digits, wanted),
-                   digits, si_unit(wanted));
+    fail<BadInput>("{} has no unit; write {}, or the bare number {} for SI ({})", quote(text),
+                   example(digits, wanted), digits, si_unit(wanted));
   }
   const Scale scale = parse_unit(rest, wanted);
   if (!(scale.dimension == wanted)) {
-    const std::string cure = wanted == dimension::number ? "without a unit or in \"%\""
-                                                         : "such as " + example(digits, wanted);
-    fail<BadInput>("{} is {}; {} is wanted, {}", quote(text), describe(scale.dimension), describe(wanted), cure);
+    const std::string cure =
+        wanted == dimension::number ? "without a unit or in \"%\"" : "such as " + example(digits, wanted);
+    fail<BadInput>("{} is {}; {} is wanted, {}", quote(text), describe(scale.dimension), describe(wanted),
+                   cure);
   }
   const double value = scale.factor == 1
                            ? shifted(digits, scale.exponent)
@@ -277,13 +218,16 @@ double parse_quantity(std::string_view text, Dimension wanted) {
 
 std::string format_quantity(double si, Dimension d) {
   std::array<char, 32> buffer{};
-  const auto [end, error] =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(si), std::chars_format::scientific);
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(si),
+                                          std::chars_format::scientific);
   const std::string_view text(buffer.data(), end);
   const std::size_t e = text.find('e');
   if (e == std::string_view::npos) return fmt::format("{}", si);  // not finite: nothing to scale
   std::string digits(text.substr(0, 1));
   if (e > 2) digits += text.substr(2, e - 2);
+  constexpr std::size_t many = 10;
+  if (digits.size() > many)
+    if (const std::string pounds = in_pounds(si, d); !pounds.empty()) return pounds;
   const int exponent = std::atoi(std::string(text.substr(e + 1)).c_str());
   int shift = 0;
   std::string unit = si_unit(d);
@@ -292,7 +236,8 @@ std::string format_quantity(double si, Dimension d) {
     shift = s.exponent, unit = s.unit;
     if (exponent >= s.exponent) break;
   }
-  return fmt::format("{}{}{}{}", std::signbit(si) ? "-" : "", decimal(digits, exponent - shift), unit.empty() ? "" : " ", unit);
+  return fmt::format("{}{}{}{}", std::signbit(si) ? "-" : "", decimal(digits, exponent - shift),
+                     unit.empty() ? "" : " ", unit);
 }
 
 }  // namespace breccia

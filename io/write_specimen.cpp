@@ -18,7 +18,8 @@ void write_specimen_csv(const std::filesystem::path& file, const Specimen& speci
   auto out = std::back_inserter(text);
   fmt::format_to(out, "id,x_m,y_m,z_m,r_m{}\n", groups ? ",group" : "");
   for (const SpecimenSphere& s : spheres) {
-    fmt::format_to(out, "{},{},{},{},{}", s.id, s.centre.x, s.centre.y, s.centre.z, s.radius);  // shortest that reads back
+    fmt::format_to(out, "{},{},{},{},{}", s.id, s.centre.x, s.centre.y, s.centre.z,
+                   s.radius);  // shortest that reads back
     if (groups) fmt::format_to(out, ",{}", s.group);
     text.push_back('\n');
   }
