@@ -67,7 +67,8 @@ template <class Table>
 std::size_t bytes_of(const Table& table, bool (*wanted)(Role)) {
   std::size_t bytes = 0;
   table.for_each_column([&]<class T>(const ColumnInfo& info, const std::vector<T>& column) {
-    // 8 kB: header, attributes and index of chunks; 1/256: check sums, and the index of very many chunks
+    // 8 kB: header, attributes and index of chunks; 1/256: check sums, last rows of chunks, and
+    // the index of very many chunks
     if (wanted(info.role) && !column.empty()) bytes += table.size * sizeof(T) * 257 / 256 + 8192;
   });
   return bytes;
@@ -125,7 +126,8 @@ void create_results(const fs::path& file, std::string_view case_text) {
   const fs::path aside = name_aside(file);
   write_aside(aside, "");
   try {
-    claim_space(aside, case_text.size() + bytes_of_group);  // so that a full disk is told by the system, not by HDF5
+    claim_space(aside,
+                case_text.size() + bytes_of_group);  // so that a full disk is told by the system, not by HDF5
     h5::Handle made = h5::create_file(aside.string());
     h5::write_attribute(made, "version", std::string_view(BRECCIA_VERSION));
     h5::write_attribute(made, "case", case_text);
