@@ -32,7 +32,16 @@ std::string innermost_reason() {
 Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make an access list");
   check(H5Pset_file_locking(access, false, true), "do without locks");
+  // Groups since HDF5 1.8 keep their links in one block; files since 1.10 refuse to be opened after a kill.
+  check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "set the version");
   return access;
+}
+
+/// Links stay in the block of the group, and the block has room for so many: adding one overwrites, allocates
+/// nothing.
+void make_room(hid_t creation, unsigned links) {
+  check(H5Pset_link_phase_change(creation, 65535, 65534), "keep links compact");
+  check(H5Pset_est_link_info(creation, links, 12), "make room for links");
 }
 
 struct Types {
@@ -90,19 +99,31 @@ Handle open_file(const std::string& name) {
   return {H5Fopen(name.c_str(), H5F_ACC_RDWR, file_access()), H5Fclose, "open"};
 }
 
-Handle create_file(const std::string& name) {
-  return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, file_access()), H5Fclose, "create"};
+Handle create_file(const std::string& name, unsigned links_of_root) {
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "create");
+  make_room(creation, links_of_root);
+  return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, file_access()), H5Fclose, "create"};
 }
 
 Handle create_group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
 }
 
-void remove_if_there(hid_t parent, const std::string& name) {
-  const htri_t there = H5Lexists(parent, name.c_str(), H5P_DEFAULT);
-  check(there, name);
-  if (there > 0) check(H5Ldelete(parent, name.c_str(), H5P_DEFAULT), name);
+Handle create_unlinked_group(hid_t file, unsigned links) {
+  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "make a group");
+  make_room(creation, links);
+  return {H5Gcreate_anon(file, creation, H5P_DEFAULT), H5Gclose, "make a group"};
 }
+
+void link_as(hid_t object, hid_t file, const std::string& parent, const std::string& name) {
+  const Handle group(H5Gopen2(file, parent.c_str(), H5P_DEFAULT), H5Gclose, parent);
+  const htri_t there = H5Lexists(group, name.c_str(), H5P_DEFAULT);
+  check(there, name);
+  if (there > 0) check(H5Ldelete(group, name.c_str(), H5P_DEFAULT), name);
+  check(H5Olink(object, group, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name);
+}
+
+void flush(hid_t file) { check(H5Fflush(file, H5F_SCOPE_LOCAL), "flush"); }
 
 void write_attribute(hid_t object, const char* name, double value) {
   write_scalar(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);

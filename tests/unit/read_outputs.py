@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Reads what test_outputs.cpp wrote, with the readers that users have: read_outputs.py json|h5|vtp|no-bonds|frames FILE...
+"""Reads what test_outputs.cpp wrote, with the readers that users have: read_outputs.py WHAT FILE...
 
 Exit code 0: all is as it should be; 1: the first thing that is not is printed; 77: the reader is not installed.
 """
@@ -63,12 +63,25 @@ def read_h5(path):
         equal(file["run-1/frame-000/bonds/state"][:].tolist(), [0, 0, 0, 0], "lean state")
 
 
-def read_frames(path, count):
+def frames_of(path):
     import h5py
+
+    def read(_, found):
+        if isinstance(found, h5py.Dataset):
+            found[()]  # its checksum is tested
+
     with h5py.File(path, "r") as file:
-        frames = [name for name in file["run-0"] if name.startswith("frame-")]
-        equal(frames, [f"frame-{i:03}" for i in range(int(count))], "frames")
-        file["run-0"].visititems(lambda _, found: found[()] if isinstance(found, h5py.Dataset) else None)
+        file.visititems(read)
+        return [name for name in file["run-0"] if name.startswith("frame-")]
+
+
+def read_frames(path, count):
+    equal(frames_of(path), [f"frame-{i:03}" for i in range(int(count))], path)
+
+
+def read_frames_at_least(*paths_and_counts):
+    for path, count in zip(paths_and_counts[::2], paths_and_counts[1::2]):
+        equal(frames_of(path)[:int(count)], [f"frame-{i:03}" for i in range(int(count))], path)
 
 
 def poly_data(path):
@@ -133,7 +146,8 @@ def read_no_bonds(folder):
 
 def main():
     what, arguments = sys.argv[1], sys.argv[2:]
-    readers = {"json": read_json, "h5": read_h5, "vtp": read_vtp, "no-bonds": read_no_bonds, "frames": read_frames}
+    readers = {"json": read_json, "h5": read_h5, "vtp": read_vtp, "no-bonds": read_no_bonds, "frames": read_frames,
+               "frames-at-least": read_frames_at_least}
     try:
         readers[what](*arguments)
     except ImportError as missing:

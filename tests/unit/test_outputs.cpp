@@ -2,6 +2,7 @@
 // where not.
 #include <doctest/doctest.h>
 #include <sched.h>
+#include <signal.h>
 #include <sys/mount.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -365,6 +366,50 @@ TEST_CASE("outputs: on a full disk the earlier frames stay readable, and one lin
   REQUIRE(::mount("tmpfs", disk.path.c_str(), "tmpfs", MS_REMOUNT, "size=4m") == 0);
   append_frame(file, 0, frames, {}, scene.particles, scene.bonds);
   check_with_python("frames '" + file.string() + "' " + std::to_string(frames + 1));
+}
+
+TEST_CASE(
+    "outputs: a kill in the middle of a frame leaves the earlier ones readable, and the file can be "
+    "continued") {
+  const TemporaryFolder folder;
+  const Scene scene = noise(500, 1500);
+  std::string arguments = "frames-at-least";
+  for (int trial = 0; trial < 8; ++trial) {
+    const fs::path file = folder.path / (std::to_string(trial) + ".h5");
+    create_results(file, "");
+    begin_run(file, 0, attributes, scene.particles, scene.bonds);
+    int written[2];
+    REQUIRE(::pipe(written) == 0);
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      for (int frame = 0;; ++frame) {
+        append_frame(file, 0, frame, {}, scene.particles, scene.bonds);
+        if (::write(written[1], "x", 1) != 1) ::_exit(1);
+      }
+    }
+    ::close(written[1]);
+    char buffer[4096];
+    ssize_t frames = ::read(written[0], buffer, 1);  // at least one frame, however slow the machine is
+    ::usleep(static_cast<useconds_t>(5000 + 1700 * trial));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    while (const ssize_t more = ::read(written[0], buffer, sizeof buffer)) frames += more;
+    ::close(written[0]);
+    append_frame(file, 0, static_cast<int>(frames), {}, scene.particles, scene.bonds);
+    arguments += " '" + file.string() + "' " + std::to_string(frames + 1);
+  }
+  check_with_python(arguments);
+}
+
+TEST_CASE("outputs: more frames and runs than usual") {
+  const TemporaryFolder folder;
+  const Scene scene;
+  const fs::path file = folder.path / "results.h5";
+  create_results(file, "");
+  for (int run = 0; run < 70; ++run) begin_run(file, run, {}, scene.particles, scene.bonds);
+  for (int frame = 0; frame < 140; ++frame) append_frame(file, 0, frame, {}, scene.particles, scene.bonds);
+  check_with_python("frames '" + file.string() + "' 140");
 }
 
 TEST_CASE("outputs: a folder that cannot be written to is named with the cure") {
