@@ -67,8 +67,7 @@ template <class Table>
 std::size_t bytes_of(const Table& table, bool (*wanted)(Role)) {
   std::size_t bytes = 0;
   table.for_each_column([&]<class T>(const ColumnInfo& info, const std::vector<T>& column) {
-    // 8 kB: header, attributes and index of chunks; 1/256: check sums, last rows of chunks, and
-    // the index of very many chunks
+    // 8 kB: header, attributes, index of chunks; 1/256: check sums, last rows of chunks, index of many chunks
     if (wanted(info.role) && !column.empty()) bytes += table.size * sizeof(T) * 257 / 256 + 8192;
   });
   return bytes;
@@ -78,29 +77,27 @@ constexpr std::size_t bytes_of_group = 65536;  ///< of the groups around the dat
 constexpr unsigned usual_runs = 64, usual_frames = 128;  ///< more are possible, at a little more risk (below)
 
 // HDF5 changes a file in place: left to itself, a full disk or a kill half-way makes the older frames
-// unreadable too (tried: "addr overflow" when they are listed; its exit handler may crash on top). So
-// - the space is claimed before HDF5 opens the file, and HDF5 gives back what it did not need. A process that
-// dies in
-//   between leaves a file that is too long, which HDF5 accepts, never one that is too short, which it
-//   refuses;
-// - a new group is written and flushed behind everything else before anything refers to it. What is then
-// overwritten
-//   in place is the block of links of its parent, which has room for one more.
+// unreadable too (tried: "addr overflow" when they are listed; its exit handler may crash on top). So the
+// space is claimed before HDF5 opens the file, and HDF5 gives back what it did not need. A process that dies
+// in between leaves a file that is too long, which HDF5 accepts, never one that is too short. And a new group
+// is written and flushed behind everything else before anything refers to it. What is overwritten in place
+// after that is the block of links of its parent, which has room for one more.
 
 /// Makes the file `bytes` longer, or leaves it as it was.
 void claim_space(const fs::path& path, std::size_t bytes) {
   const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) fail_to_write(path, errno);
   const off_t size = ::lseek(file, 0, SEEK_END);
-  int error = size < 0 ? errno : ::posix_fallocate(file, size, static_cast<off_t>(bytes));
+  int error = size < 0 ? errno : EINTR;  // EINTR: a signal asked for a checkpoint
+  while (error == EINTR) error = ::posix_fallocate(file, size, static_cast<off_t>(bytes));
   if (error == EINVAL || error == EOPNOTSUPP) error = 0;  // the file system cannot: as good as it gets
   if (error != 0 && size >= 0 && ::ftruncate(file, size) != 0) error = errno;
   ::close(file);
   if (error != 0) fail_to_write(path, error);
 }
 
-/// Adds the group parent/name, filled by `write(group)` with at most `bytes` of columns and made for so many
-/// links.
+/// Adds the group parent/name, made for so many links, filled by `write(group)` with `bytes` of columns at
+/// most.
 template <class Write>
 void append(const fs::path& path, const std::string& parent, const std::string& name, std::size_t bytes,
             unsigned links, Write&& write) {
@@ -130,19 +127,16 @@ void create_results(const fs::path& file, std::string_view case_text) {
   const fs::path aside = name_aside(file);
   write_aside(aside, "");
   try {
-    claim_space(aside,
-                case_text.size() + bytes_of_group);  // so that a full disk is told by the system, not by HDF5
+    // a full disk is better told by the system than by HDF5
+    claim_space(aside, case_text.size() + bytes_of_group);
     h5::Handle made = h5::create_file(aside.string(), usual_runs);
     h5::write_attribute(made, "version", std::string_view(BRECCIA_VERSION));
     h5::write_attribute(made, "case", case_text);
     made.close("close");
-  } catch (const h5::Failure& failure) {
+  } catch (const std::exception& error) {
     std::error_code ignored;
     fs::remove(aside, ignored);
-    fail_to_write(file, failure.what());
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(aside, ignored);
+    if (dynamic_cast<const h5::Failure*>(&error) != nullptr) fail_to_write(file, error.what());
     throw;
   }
   move_into_place(aside, file);
