@@ -19,7 +19,9 @@ namespace breccia {
   COLUMN(double, area,            "m^2",   reference, always,          "alpha pi min(r_lo, r_hi)^2")                  \
   COLUMN(double, stiffness,       "N/m",   reference, always,          "k_n = E area/rest_length")                    \
   COLUMN(double, damping,         "N s/m", reference, contact_damping, "c_n = 2 xi sqrt(m_lo m_hi k_n/(m_lo + m_hi))") \
-  COLUMN(Vec3,   shear_force,     "N",     history,   always,          "on lo: k_s times the secant shear displacement while intact, the friction force once broken") \
+  COLUMN(double, shear_x,         "N",     history,   always,          "on lo, along x: k_s times the secant shear displacement while intact, the friction force once broken") \
+  COLUMN(double, shear_y,         "N",     history,   always,          "the same along y")                            \
+  COLUMN(double, shear_z,         "N",     history,   always,          "the same along z")                            \
   COLUMN(double, plastic_stretch, "m",     history,   plasticity,      "elongation at which the bond is free of force, <= 0") \
   COLUMN(double, damage_normal,   "1",     history,   breakage,        "D_n: 0 intact, 1 broken in tension")          \
   COLUMN(double, damage_shear,    "1",     history,   breakage,        "D_s: 0 intact, 1 broken in shear")

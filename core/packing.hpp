@@ -11,9 +11,13 @@ namespace breccia {
 /// Size distribution of a packing made here.
 struct SizeDistribution {
   enum class Kind { lognormal, uniform, sieves } kind = Kind::lognormal;
-  double spread = 0.26;                 ///< lognormal: standard deviation of ln r; uniform: half-width over mean
-  std::vector<double> sieve_openings;   ///< m, rising; sieves: diameters
-  std::vector<double> sieve_passing;    ///< mass fraction passing each opening, rising to 1
+  /// lognormal: standard deviation of ln r, cut at 3 of them; uniform: half-width over mean
+  double spread = 0.26;
+  /// sieves: m, diameters, rising. Only their ratios count: sizes are scaled as a whole so that the number of
+  /// spheres gives the porosity
+  std::vector<double> sieve_openings;
+  /// mass fraction passing each opening, rising from 0 to 1; straight over ln d in between
+  std::vector<double> sieve_passing;
 };
 
 struct PackRequest {
@@ -23,8 +27,11 @@ struct PackRequest {
   std::uint64_t seed = 1;
 };
 
-/// Packs spheres into a body whose centre is the origin and whose axis is z.
-/// @param request   number, sizes, porosity and seed; the same request gives the same packing
+/// Packs spheres into a body whose centre is the origin and whose axis is z: dense, random, evenly filled up
+/// to flat ends and mantle. Centres lie inside; overlaps reach 20 % of ri + rj, and spheres
+/// stick out of walls by some 20 % of their radius at most. A bad request throws BadInput.
+/// @param request   number, sizes, porosity (0.15 to 0.60) and seed; the same request gives the same packing
+///                  bit for bit, with any number of threads
 /// @param progress  called now and then with a fraction done and the present mean overlap/mean radius
 Specimen pack_spheres(const Body& body, const PackRequest& request,
                       const std::function<void(double, double)>& progress = {});

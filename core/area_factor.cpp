@@ -1,0 +1,79 @@
+#include "core/area_factor.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/elastic_network.hpp"
+#include "core/error.hpp"
+#include "core/law_of_material.hpp"
+
+namespace breccia {
+namespace {
+
+double fabric_of(const Assembly& a) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.bonds.size; ++k) sum += a.bonds.area[k] * a.bonds.rest_length[k];
+  return sum / (3.0 * a.volume());
+}
+
+/// Affine deformation: E = alpha T E (2 + 3 kappa)/(4 + kappa), an upper bound on the stiffness.
+double affine_alpha(double fabric, double kappa) { return (4.0 + kappa) / (2.0 + 3.0 * kappa) / fabric; }
+
+/// Onate et al. 2015, eq. 22, with the porosity in percent: 40 P/N_c.
+double porosity_alpha(const Assembly& a) {
+  double solid = 0.0;
+  for (const double r : a.particles.radius) solid += 4.0 / 3.0 * std::numbers::pi * r * r * r;
+  return 40.0 * (1.0 - solid / a.volume()) / a.coordination;
+}
+
+/// k_s/k_n at which the probe shows the Poisson ratio asked for: secant steps from the affine value.
+double matched_ratio(const Assembly& a, const AreaFactorRequest& r, int threads, ElasticResponse& answer, int& probes) {
+  const auto miss = [&](double kappa) {
+    answer = probe(a, r.young_modulus, kappa, r.rough_platens, threads);
+    ++probes;
+    return answer.poisson_ratio - r.poisson_ratio;
+  };
+  const double tolerance = 0.002 * std::max(r.poisson_ratio, 0.05);
+  double k0 = matched_shear_ratio(r.poisson_ratio), f0 = miss(k0);
+  if (std::abs(f0) < tolerance) return k0;
+  double k1 = std::max(0.0, k0 + 1.2 * f0 * 5.0 / 2.0), f1 = miss(k1);  // d nu/d kappa of the affine form is near -5/16 .. -1/4
+  for (int turn = 0; turn < 12 && std::abs(f1) >= tolerance; ++turn) {
+    const double k2 = std::max(0.0, k1 - f1 * (k1 - k0) / (f1 - f0));
+    k0 = k1, f0 = f1;
+    k1 = k2, f1 = miss(k1);
+    if (k1 == k0) break;
+  }
+  if (std::abs(f1) >= tolerance)
+    fail<BadInput>("bonds.elasticity: \"matched\" finds no k_s/k_n that gives this specimen a Poisson ratio of {} (reached {:.4f}); "
+                   "ask for one nearer to that, or use \"paper\"", r.poisson_ratio, answer.poisson_ratio);
+  return k1;
+}
+
+}  // namespace
+
+AreaFactor find_area_factor(const Assembly& a, const AreaFactorRequest& r, int threads) {
+  AreaFactor f;
+  f.fabric = fabric_of(a);
+  const bool matched = r.elasticity == Elasticity::matched;
+  f.shear_ratio = matched ? matched_shear_ratio(r.poisson_ratio) : paper_shear_ratio(r.poisson_ratio);
+  switch (r.rule) {
+    case AlphaRule::number: f.alpha = r.number; return f;
+    case AlphaRule::porosity: f.alpha = porosity_alpha(a); return f;
+    case AlphaRule::affine: f.alpha = affine_alpha(f.fabric, f.shear_ratio); return f;
+    case AlphaRule::automatic: break;
+  }
+  ElasticResponse answer;
+  if (matched) {
+    f.shear_ratio = matched_ratio(a, r, threads, answer, f.probes);
+  } else {
+    answer = probe(a, r.young_modulus, f.shear_ratio, r.rough_platens, threads);
+    f.probes = 1;
+  }
+  // the network is linear: the modulus is proportional to alpha
+  f.alpha = r.young_modulus / answer.young_modulus;
+  f.young_modulus = r.young_modulus;
+  f.poisson_ratio = answer.poisson_ratio;
+  return f;
+}
+
+}  // namespace breccia

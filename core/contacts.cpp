@@ -1,0 +1,136 @@
+#include "core/contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/cell_list.hpp"
+#include "core/parallel.hpp"
+
+namespace breccia {
+namespace {
+
+bool are_bonded(const ContactSearch& search, Row a, Row b) {
+  return std::binary_search(search.partners.begin() + search.first_partner[a],
+                            search.partners.begin() + search.first_partner[a + 1], b);
+}
+
+/// Largest distance that a particle has moved against a specimen that is stretched evenly along its axis, and the
+/// largest speed: what is uniform brings no two neighbours together by more than strain times their distance.
+struct Moved {
+  double distance2 = 0, speed2 = 0;
+  Moved& operator+=(const Moved& o) {
+    distance2 = std::max(distance2, o.distance2);
+    speed2 = std::max(speed2, o.speed2);
+    return *this;
+  }
+};
+
+}  // namespace
+
+ContactSearch make_contact_search(const Assembly& a, bool enabled, double skin) {
+  ContactSearch s;
+  s.enabled = enabled;
+  s.skin = skin;
+  const auto& b = a.bonds;
+  std::vector<std::pair<Row, Row>> ends;
+  ends.reserve(2 * b.size);
+  for (std::size_t k = 0; k < b.size; ++k) {
+    ends.emplace_back(b.row_lo[k], b.row_hi[k]);
+    ends.emplace_back(b.row_hi[k], b.row_lo[k]);
+  }
+  std::sort(ends.begin(), ends.end());
+  s.first_partner.assign(a.particles.size + 1, 0);
+  for (const auto& [row, partner] : ends) {
+    ++s.first_partner[row + 1];
+    s.partners.push_back(partner);
+  }
+  for (std::size_t k = 0; k < a.particles.size; ++k) s.first_partner[k + 1] += s.first_partner[k];
+  if (!enabled) return s;
+
+  // until the nearest unbonded pair can have met, there is nothing to search for
+  s.position = a.particles.position;
+  s.slack = s.skin;
+  for (const auto& [i, j] : near_pairs(s.position, a.particles.radius, 0.0, s.skin, 1)) {
+    const double distance = norm(s.position[j] - s.position[i]);
+    s.reach = std::max(s.reach, distance);
+    if (!are_bonded(s, i, j))
+      s.slack = std::min(s.slack, distance - a.particles.radius[i] - a.particles.radius[j]);
+  }
+  return s;
+}
+
+bool search_is_due(ContactSearch& s, const ParticleTable& p, std::uint64_t step, double dt, int threads) {
+  if (!s.enabled || step < s.next_check) return false;
+  s.next_check = step + static_cast<std::uint64_t>(s.check_every);
+  if (s.slack <= 0.0) return true;  // pairs that overlap unbonded are in contact from the start
+
+  double top = 0.0, square = 0.0;  // even stretch along the axis: least squares of u_z over z
+  for (std::size_t row = 0; row < p.size; row += 7) {
+    top += s.position[row].z * (p.position[row].z - s.position[row].z);
+    square += s.position[row].z * s.position[row].z;
+  }
+  const double stretch = square > 0.0 ? top / square : 0.0;
+  std::vector<Moved> blocks;
+  const Moved most = sum_rows<Moved>(p.size, threads, blocks, [&](std::size_t row) {
+    Vec3 u = p.position[row] - s.position[row];
+    u.z -= stretch * s.position[row].z;
+    return Moved{dot(u, u), dot(p.velocity[row], p.velocity[row])};
+  });
+  // what they may still move before the next check counts as used
+  const double ahead = 1.5 * s.check_every * dt * std::sqrt(most.speed2);
+  return 2.0 * (std::sqrt(most.distance2) + ahead) + std::abs(stretch) * s.reach > s.slack;
+}
+
+void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTable& p, const ContactMaterial& material,
+                    const Features& features, int threads) {
+  using std::numbers::pi;
+  const bool first_list = !s.awake;
+  s.awake = true;
+  s.slack = s.skin;
+  ++s.rebuilds;
+  s.position = p.position;
+  std::vector<RowPair> pairs = near_pairs(p.position, p.radius, 0.0, s.skin, threads);
+  std::erase_if(pairs, [&](const RowPair& pair) { return are_bonded(s, pair.a, pair.b); });
+  std::sort(pairs.begin(), pairs.end(), [](const RowPair& x, const RowPair& y) {
+    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+  });
+
+  const ContactTable before = std::move(contacts);
+  std::vector<std::pair<std::pair<Row, Row>, std::size_t>> known;  // pairs with a history worth keeping
+  for (std::size_t k = 0; k < before.size; ++k) {
+    const double touch = p.radius[before.row_lo[k]] + p.radius[before.row_hi[k]];
+    if (before.free_length[k] != touch || !(before.shear_force[k] == Vec3{}))
+      known.push_back({std::minmax(before.row_lo[k], before.row_hi[k]), k});
+  }
+  std::sort(known.begin(), known.end());
+
+  contacts = ContactTable{};
+  contacts.resize(pairs.size(), features);
+  s.reach = 0.0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [lo, hi] = p.gid[pairs[k].a] < p.gid[pairs[k].b] ? std::pair(pairs[k].a, pairs[k].b)
+                                                                : std::pair(pairs[k].b, pairs[k].a);
+    const double touch = p.radius[lo] + p.radius[hi], smaller = std::min(p.radius[lo], p.radius[hi]);
+    const double distance = norm(p.position[hi] - p.position[lo]);
+    s.reach = std::max(s.reach, distance);
+    contacts.gid_lo[k] = p.gid[lo];
+    contacts.gid_hi[k] = p.gid[hi];
+    contacts.row_lo[k] = lo;
+    contacts.row_hi[k] = hi;
+    contacts.stiffness[k] = material.young * material.alpha * pi * smaller * smaller / touch;
+    if (features.contact_damping)
+      contacts.damping[k] = 2.0 * material.damping * std::sqrt(p.mass[lo] * p.mass[hi] / (p.mass[lo] + p.mass[hi]) * contacts.stiffness[k]);
+    // pairs that overlap unbonded from the start are free of stress where they are
+    contacts.free_length[k] = first_list ? std::min(touch, distance) : touch;
+    const std::pair<Row, Row> key = std::minmax(lo, hi);
+    const auto found = std::lower_bound(known.begin(), known.end(), std::pair(key, std::size_t{0}));
+    if (found != known.end() && found->first == key) {
+      contacts.free_length[k] = before.free_length[found->second];
+      contacts.shear_force[k] = before.shear_force[found->second];
+    }
+  }
+}
+
+}  // namespace breccia

@@ -1,0 +1,160 @@
+#include "core/elastic_network.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/gauges.hpp"
+#include "core/parallel.hpp"
+
+namespace breccia {
+namespace {
+
+Vec3 three(const Eigen::VectorXd& v, std::size_t at) {
+  const auto k = static_cast<Eigen::Index>(at);
+  return {v[k], v[k + 1], v[k + 2]};
+}
+void put(Eigen::VectorXd& v, std::size_t at, const Vec3& f) {
+  const auto k = static_cast<Eigen::Index>(at);
+  v[k] = f.x, v[k + 1] = f.y, v[k + 2] = f.z;
+}
+
+/// Force on one end (`sign` +1: lo) of a spring and its torque there.
+void add_spring(const ElasticNetwork::Spring& s, bool is_hi, const Eigen::VectorXd& u, Vec3& force, Vec3& torque) {
+  const std::size_t lo = 6 * std::size_t{s.lo}, hi = 6 * std::size_t{s.hi};
+  const Vec3 turn = s.arm_lo * three(u, lo + 3) + s.arm_hi * three(u, hi + 3);
+  const Vec3 relative = three(u, hi) - three(u, lo) - cross(turn, s.normal);
+  const double along = dot(relative, s.normal);
+  const Vec3 f = (s.k_n * along) * s.normal + s.k_s * (relative - along * s.normal);
+  const Vec3 moment = cross(s.normal, f);
+  force += is_hi ? f : -f;  // K u is what must be applied: minus the spring's force on the end
+  torque -= (is_hi ? s.arm_hi : s.arm_lo) * moment;
+}
+
+
+}  // namespace
+
+ElasticNetwork elastic_network(const ParticleTable& p, const BondTable& b, bool rotation, int threads,
+                               const std::function<SpringConstants(std::size_t)>& constants) {
+  ElasticNetwork net;
+  net.particles = p.size;
+  net.threads = threads;
+  net.springs.resize(b.size);
+  net.first_entry.assign(net.particles + 1, 0);
+  for (std::size_t k = 0; k < b.size; ++k) {
+    const Row lo = b.row_lo[k], hi = b.row_hi[k];
+    const auto [normal, shear] = constants(k);
+    const double arm_ratio = rotation ? b.rest_length[k] / (p.radius[lo] + p.radius[hi]) : 0.0;
+    net.springs[k] = {lo, hi, (1.0 / b.rest_length[k]) * (p.reference_position[hi] - p.reference_position[lo]),
+                      normal, shear, arm_ratio * p.radius[lo], arm_ratio * p.radius[hi]};
+    ++net.first_entry[lo + 1];
+    ++net.first_entry[hi + 1];
+  }
+  for (std::size_t k = 0; k < net.particles; ++k) net.first_entry[k + 1] += net.first_entry[k];
+  net.entries.resize(2 * b.size);
+  std::vector<std::uint32_t> next(net.first_entry.begin(), net.first_entry.end() - 1);
+  for (std::size_t k = 0; k < b.size; ++k) {
+    net.entries[next[b.row_lo[k]]++] = static_cast<std::uint32_t>(k << 1);
+    net.entries[next[b.row_hi[k]]++] = static_cast<std::uint32_t>(k << 1 | 1u);
+  }
+  return net;
+}
+
+void apply_stiffness(const ElasticNetwork& net, const Eigen::VectorXd& u, Eigen::VectorXd& forces) {
+  for_rows(net.particles, net.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      Vec3 force, torque;
+      for (std::uint32_t e = net.first_entry[p]; e < net.first_entry[p + 1]; ++e)
+        add_spring(net.springs[net.entries[e] >> 1], net.entries[e] & 1u, u, force, torque);
+      put(forces, 6 * p, force);
+      put(forces, 6 * p + 3, torque);
+    }
+  });
+}
+
+namespace {
+
+/// Diagonal of K, for the preconditioner.
+Eigen::VectorXd stiffness_diagonal(const ElasticNetwork& net) {
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * net.particles));
+  for (const auto& s : net.springs) {
+    const Vec3 n2{s.normal.x * s.normal.x, s.normal.y * s.normal.y, s.normal.z * s.normal.z};
+    for (const bool hi : {false, true}) {
+      const auto at = static_cast<Eigen::Index>(6 * (hi ? s.hi : s.lo));
+      const double arm = hi ? s.arm_hi : s.arm_lo;
+      const double squares[3] = {n2.x, n2.y, n2.z};
+      for (int k = 0; k < 3; ++k) {
+        d[at + k] += s.k_n * squares[k] + s.k_s * (1.0 - squares[k]);
+        d[at + 3 + k] += s.k_s * arm * arm * (1.0 - squares[k]);
+      }
+    }
+  }
+  return d;
+}
+
+}  // namespace
+
+ElasticResponse probe(const Assembly& a, double young, double shear_ratio, bool rough, int threads) {
+  const ParticleTable& p = a.particles;
+  const ElasticNetwork net = elastic_network(p, a.bonds, !p.spin.empty(), threads, [&](std::size_t k) {
+    const double radii = p.radius[a.bonds.row_lo[k]] + p.radius[a.bonds.row_hi[k]];
+    const double k_n = young * a.bonds.area[k] / strain_length_of(a.bonds.rest_length[k], radii);
+    return SpringConstants{k_n, shear_ratio * k_n};
+  });
+  const auto n = static_cast<Eigen::Index>(6 * net.particles);
+  Eigen::VectorXd inverse_diagonal = stiffness_diagonal(net);
+  inverse_diagonal = (inverse_diagonal.array() > 0.0).select(inverse_diagonal.cwiseInverse(), 0.0);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
+  const double push = 0.5e-4 * a.body.height;  // any size: the answer is linear
+  for (std::size_t row = a.particles.free; row < net.particles; ++row) {
+    const auto at = static_cast<Eigen::Index>(6 * row);
+    u[at + 2] = row < a.first_top ? push : -push;
+    inverse_diagonal[at + 2] = 0.0;  // prescribed: neither moved nor balanced
+    if (rough) inverse_diagonal[at] = inverse_diagonal[at + 1] = 0.0;
+  }
+  // the affine field is a good first guess
+  for (std::size_t row = 0; row < a.particles.free; ++row)
+    u[static_cast<Eigen::Index>(6 * row + 2)] = -2.0 * push / a.body.height * a.particles.reference_position[row].z;
+
+  // conjugate gradients on the free unknowns, preconditioned by the diagonal; a prescribed unknown has a zero there
+  const auto free = (inverse_diagonal.array() > 0.0).cast<double>().matrix().eval();
+  Eigen::VectorXd force(n), residual(n), direction(n), image(n);
+  apply_stiffness(net, u, force);
+  residual = -force.cwiseProduct(free);
+  Eigen::VectorXd z = residual.cwiseProduct(inverse_diagonal);
+  direction = z;
+  double rho = residual.dot(z);
+  const double start = force.cwiseAbs().maxCoeff();
+  ElasticResponse answer;
+  const long limit = 20000;
+  while (residual.cwiseAbs().maxCoeff() > 1e-7 * start && answer.iterations < limit) {
+    apply_stiffness(net, direction, image);
+    const double step = rho / direction.dot(image);
+    u += step * direction;
+    residual -= step * image.cwiseProduct(free);
+    z = residual.cwiseProduct(inverse_diagonal);
+    const double next = residual.dot(z);
+    direction = z + (next / rho) * direction;
+    rho = next;
+    ++answer.iterations;
+  }
+  if (answer.iterations == limit)
+    fail<BadInput>("bonds.alpha: the elastic probe did not converge; give alpha a number or \"affine\"");
+
+  apply_stiffness(net, u, force);
+  double reaction = 0.0;
+  for (std::size_t row = a.particles.free; row < net.particles; ++row)
+    reaction += (row < a.first_top ? 0.5 : -0.5) * force[static_cast<Eigen::Index>(6 * row + 2)];
+  const auto strain = [&](const Gauge& g) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < g.rows.size(); ++k) sum += dot(g.weights[k], three(u, 6 * std::size_t{g.rows[k]}));
+    return sum;
+  };
+  const double axial = strain(axial_gauge(a)), radial = strain(radial_gauge(a));
+  answer.young_modulus = reaction / a.section() / axial;
+  answer.poisson_ratio = -radial / axial;
+  if (!(answer.young_modulus > 1e-6 * young))
+    fail<BadInput>("bonds.range: the bonds do not connect the two ends of the specimen; widen the range");
+  return answer;
+}
+
+}  // namespace breccia

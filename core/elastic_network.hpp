@@ -1,0 +1,50 @@
+// The bonds as a linear elastic network: the stiffness that the probe for alpha solves with, and that bounds the
+// time step.
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+
+#include "core/assembly.hpp"
+
+namespace breccia {
+
+/// Per bond: unit normal, stiffnesses, arms. Six unknowns a particle: displacement, then rotation.
+struct ElasticNetwork {
+  struct Spring {
+    Row lo, hi;
+    Vec3 normal;
+    double k_n, k_s;       ///< N/m
+    double arm_lo, arm_hi;  ///< m
+  };
+  std::vector<Spring> springs;
+  std::vector<std::uint32_t> first_entry, entries;  ///< per particle: spring << 1 | particle is hi
+  std::size_t particles = 0;
+  int threads = 1;
+};
+
+struct SpringConstants {
+  double normal, shear;  ///< N/m
+};
+
+/// @param rotation   false: no arms, particles pass no torque
+/// @param constants  called with the row of each bond
+ElasticNetwork elastic_network(const ParticleTable& particles, const BondTable& bonds, bool rotation, int threads,
+                               const std::function<SpringConstants(std::size_t)>& constants);
+
+/// forces = K displacements; both of 6 * particles.
+void apply_stiffness(const ElasticNetwork& network, const Eigen::VectorXd& displacements, Eigen::VectorXd& forces);
+
+/// What the assembly does when its layers are pushed together: the answer of a static linear solve.
+struct ElasticResponse {
+  double young_modulus = 0;  ///< Pa, mean platen stress over gauge strain
+  double poisson_ratio = 0;  ///< radial gauge over axial gauge
+  long iterations = 0;       ///< of conjugate gradients
+};
+
+/// @param young        Pa; alpha is taken as 1
+/// @param shear_ratio  k_s/k_n
+/// @param rough  lateral motion of the layers fixed
+/// @throws BadInput when the specimen is not connected from end to end
+ElasticResponse probe(const Assembly& assembly, double young, double shear_ratio, bool rough, int threads);
+
+}  // namespace breccia

@@ -1,0 +1,78 @@
+// Threads: every loop of the step is cut into as many contiguous ranges as there are threads, and TBB runs them.
+// Which thread runs which range does not matter to any result.
+#pragma once
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#if defined(__SANITIZE_THREAD__)
+extern "C" {
+void __tsan_acquire(void*);
+void __tsan_release(void*);
+}
+#endif
+
+namespace breccia {
+
+/// Calls work(range) for range = 0 ... ranges - 1, on as many threads; returns when all are done.
+template <class Work>
+void for_ranges(int ranges, const Work& work) {
+  if (ranges <= 1) {
+    work(0);
+    return;
+  }
+#if defined(__SANITIZE_THREAD__)
+  // Debian's TBB is not instrumented: the thread sanitizer is told of its fork and join
+  char fork = 0, join = 0;
+  __tsan_release(&fork);
+  tbb::parallel_for(
+      0, ranges, 1,
+      [&](int range) {
+        __tsan_acquire(&fork);
+        work(range);
+        __tsan_release(&join);
+      },
+      tbb::simple_partitioner{});
+  __tsan_acquire(&join);
+#else
+  tbb::parallel_for(0, ranges, 1, work, tbb::simple_partitioner{});
+#endif
+}
+
+/// First row of a range when `rows` are cut into `ranges` parts that are multiples of `batch` but for the last.
+inline std::size_t range_first(std::size_t rows, int range, int ranges, std::size_t batch = 1) {
+  const std::size_t batches = (rows + batch - 1) / batch;
+  return std::min(rows, batches * static_cast<std::size_t>(range) / static_cast<std::size_t>(ranges) * batch);
+}
+
+/// Calls work(first, last) for one contiguous range of rows per thread.
+template <class Work>
+void for_rows(std::size_t rows, int ranges, const Work& work) {
+  constexpr std::size_t worth_a_thread = 2048;
+  if (rows < worth_a_thread) ranges = 1;
+  for_ranges(ranges, [&](int k) { work(range_first(rows, k, ranges), range_first(rows, k + 1, ranges)); });
+}
+
+/// Sum of term(row) over rows [0, rows), added in blocks of fixed size: the same bits for any number of threads.
+/// T needs +=; `block_sums` is storage kept between calls.
+template <class T, class Term>
+T sum_rows(std::size_t rows, int ranges, std::vector<T>& block_sums, const Term& term) {
+  constexpr std::size_t block = 1024;
+  const std::size_t blocks = (rows + block - 1) / block;
+  block_sums.assign(blocks, T{});
+  const int parts = blocks < 4 ? 1 : ranges;  // a few thousand rows are not worth a thread
+  for_ranges(parts, [&](int range) {
+    for (std::size_t b = range_first(blocks, range, parts); b < range_first(blocks, range + 1, parts); ++b) {
+      T sum{};
+      for (std::size_t row = b * block; row < std::min(rows, (b + 1) * block); ++row) sum += term(row);
+      block_sums[b] = sum;
+    }
+  });
+  T total{};
+  for (const T& sum : block_sums) total += sum;
+  return total;
+}
+
+}  // namespace breccia

@@ -1,0 +1,89 @@
+// The step, as a page of verbs.
+#include <array>
+
+#include "core/parallel.hpp"
+#include "core/world.hpp"
+#include "kernels/contact_pass.hpp"
+
+namespace breccia {
+namespace {
+
+void search_if_due(World& w) {
+  const Lap lap(w.phases, Phase::search);
+  if (!search_is_due(w.search, w.particles, w.step, w.dt, w.options.threads)) return;
+  const ContactMaterial material{w.material.young_modulus, w.alpha, w.options.contact_damping};
+  renew_contacts(w.search, w.contacts, w.particles, material, w.options.features, w.options.threads);
+  w.contact_plan = plan_scatter(w.options.scatter, w.options.threads, 1, w.contacts.row_lo, w.contacts.row_hi,
+                                w.contacts.gid_lo, w.contacts.gid_hi, w.particles.size, w.options.features.rotation);
+}
+
+void confine(World& w) {
+  const Lap lap(w.phases, Phase::confinement);
+  press_skin(w.confinement, w.particles);
+}
+
+void bond_forces(World& w) {
+  const Lap lap(w.phases, Phase::bonds);
+  ParticleTable& p = w.particles;
+  BondTable& b = w.bonds;
+  const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, p);
+  const BondPassIn in{w.dt,     w.law,    p.position,    p.velocity, p.spin,     p.radius,
+                      b.row_lo, b.row_hi, b.rest_length, b.area,     b.stiffness, b.damping};
+  const BondPassHistory history{b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear};
+  for_ranges(w.bond_plan.ranges, [&](int range) {
+    w.bond_pass(in, history, w.bond_plan.first(range), w.bond_plan.first(range + 1), to);
+  });
+}
+
+void contact_forces(World& w) {
+  if (w.contacts.size == 0) return;
+  const Lap lap(w.phases, Phase::contacts);
+  ParticleTable& p = w.particles;
+  ContactTable& c = w.contacts;
+  const Scatter to = scatter_view(w.contact_plan, c.row_lo, c.row_hi, p);
+  const ContactPassIn in{w.dt,     w.law.shear_ratio, w.law.friction_dynamic, w.options.features.rotation,
+                         p.position, p.velocity,      p.spin,                 p.radius,
+                         c.row_lo, c.row_hi,          c.stiffness,            c.damping};
+  const ContactPassHistory history{c.free_length, c.shear_force};
+  for_ranges(w.contact_plan.ranges, [&](int range) {
+    contact_pass(in, history, w.contact_plan.first(range), w.contact_plan.first(range + 1), to);
+  });
+  collect(w.contact_plan, p, w.options.threads);
+}
+
+void gather_bond_forces(World& w) {
+  const Lap lap(w.phases, Phase::gather);
+  collect(w.bond_plan, w.particles, w.options.threads);
+}
+
+void move_platens(World& w) {
+  const Lap lap(w.phases, Phase::platens);
+  drive_platens(w.platens, w.particles, w.first_top, w.dt);
+}
+
+void integrate(World& w) {
+  const Lap lap(w.phases, Phase::integrate);
+  ParticleTable& p = w.particles;
+  const Motion motion{p.position, p.velocity, p.spin, p.force, p.torque, p.mass, p.radius};
+  const GlobalDamping& damping = w.options.global_damping;
+  for_rows(p.free, w.options.threads,
+           [&](std::size_t first, std::size_t last) { integrate_free(motion, first, last, w.dt, damping); });
+  integrate_held(motion, p.free, w.first_top, w.dt, damping, w.platens.velocity[0], w.platens.rough);
+  integrate_held(motion, w.first_top, p.size, w.dt, damping, w.platens.velocity[1], w.platens.rough);
+}
+
+}  // namespace
+
+void advance(World& w) {
+  search_if_due(w);
+  confine(w);
+  bond_forces(w);
+  gather_bond_forces(w);
+  contact_forces(w);
+  move_platens(w);
+  integrate(w);
+  w.time += w.dt;
+  ++w.step;
+}
+
+}  // namespace breccia

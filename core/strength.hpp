@@ -1,0 +1,32 @@
+// Strengths and moduli as an engineer reads them off a curve. MODEL sections 10 and 11; DESIGN: summary.json.
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/curve.hpp"
+#include "core/summary.hpp"
+
+namespace breccia {
+
+/// What a curve says; absent where it does not go far enough.
+struct CurveFindings {
+  std::size_t peak_row = 0;
+  double peak_stress = 0;    ///< Pa, total
+  double peak_deviator = 0;  ///< Pa
+  bool peak_reached = false;  ///< the deviator fell by more than 1 % after its largest value
+  double strain_at_peak = 0;
+  std::optional<double> young_modulus, young_modulus_50, poisson_ratio;
+  std::optional<double> crack_initiation_stress, crack_damage_stress;  ///< Pa
+  double kinetic_ratio = 0;    ///< largest kinetic over stored, from 5 % of the peak to the peak
+  double platen_mismatch = 0;  ///< largest |top - bottom| over the peak deviator, up to the peak
+};
+
+/// @param mismatch  Pa, one per row
+CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double> mismatch);
+
+/// Straight line sigma_1 = q + N sigma_3 through the peaks: sin phi = (N - 1)/(N + 1), c = q/(2 sqrt N).
+/// @returns nothing for fewer than two different confinements
+std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement, std::span<const double> peak);
+
+}  // namespace breccia

@@ -1,0 +1,66 @@
+// Everything that a run moves: tables, boundary, search, constants. Made from an assembly, advanced by `step`.
+#pragma once
+#include "core/area_factor.hpp"
+#include "core/assembly.hpp"
+#include "core/boundary.hpp"
+#include "core/contacts.hpp"
+#include "core/material.hpp"
+#include "core/phases.hpp"
+#include "core/scatter_plan.hpp"
+#include "kernels/bond_pass.hpp"
+#include "kernels/integrate.hpp"
+
+namespace breccia {
+
+struct WorldOptions {
+  Features features;                 ///< built (see built_features)
+  bool new_contacts = true;
+  bool rough_platens = true;
+  double contact_damping = 0.9;      ///< xi
+  bool paper_form = false;           ///< damping times pi alpha r_c/d0 (Onate et al. 2015, eq. 30)
+  GlobalDamping global_damping{0.1, 0.1};
+  double safety = 0.8;               ///< of the critical step
+  ScatterKind scatter = ScatterKind::private_sums;
+  int threads = 1;
+  InstructionSet instruction_set = best_instruction_set();
+};
+
+struct World {
+  WorldOptions options;
+  Body body;
+  Material material;
+  DempackLaw law;
+  double alpha = 1;
+  double critical_dt = 0;  ///< s, proven bound
+  double dt = 0;           ///< s
+  double time = 0;         ///< s
+  std::uint64_t step = 0;
+  ParticleTable particles;
+  BondTable bonds;
+  ContactTable contacts;
+  std::size_t first_top = 0;
+  Platens platens;
+  Confinement confinement;
+  ContactSearch search;
+  ScatterPlan bond_plan, contact_plan;
+  BondPass bond_pass = nullptr;
+  Phases phases;
+};
+
+/// A specimen at rest, ready to be loaded.
+World make_world(const Assembly& assembly, const Material& material, const AreaFactor& factor,
+                 const WorldOptions& options);
+
+/// One step: forces at the present positions, then kick and drift.
+void advance(World& world);
+
+struct BrokenCount {
+  std::size_t tension = 0, shear = 0;
+};
+BrokenCount count_broken(const World& world);
+
+/// J
+double kinetic_energy(const World& world);
+double stored_energy(const World& world);
+
+}  // namespace breccia

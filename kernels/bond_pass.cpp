@@ -1,0 +1,94 @@
+// Compiled once per instruction set (BRECCIA_ISA names it), each in a namespace of its own, so that no function built
+// for wide registers can be linked into code that runs without them.
+#include "kernels/bond_pass.hpp"
+
+#include <experimental/simd>
+
+#include "kernels/built_features.hpp"
+
+namespace breccia::BRECCIA_ISA {
+namespace {
+
+using Lanes = std::experimental::native_simd<double>;
+constexpr std::size_t width = Lanes::size();
+static_assert(bond_batch % width == 0 && ForceBlock::capacity % bond_batch == 0);
+
+Lanes load(const double* p) { return Lanes(p, std::experimental::element_aligned); }
+void store(const Lanes& r, double* p) { r.copy_to(p, std::experimental::element_aligned); }
+
+Lanes gather(const double* column, const Index* rows) {
+  return Lanes([&](auto k) { return column[rows[k]]; });
+}
+Vec<Lanes> gather(const Vec3* column, const Index* rows) {
+  return {Lanes([&](auto k) { return column[rows[k]].x; }), Lanes([&](auto k) { return column[rows[k]].y; }),
+          Lanes([&](auto k) { return column[rows[k]].z; })};
+}
+
+template <Features features>
+End<Lanes> end_of(const BondPassIn& in, const Index* rows) {
+  End<Lanes> e;
+  e.x = gather(in.position.data(), rows);
+  e.v = gather(in.velocity.data(), rows);
+  if constexpr (features.rotation) e.w = gather(in.spin.data(), rows);
+  e.radius = gather(in.radius.data(), rows);
+  return e;
+}
+
+template <Features features>
+void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first, std::size_t last,
+               const Scatter& to) {
+  ForceBlock block;
+  while (first < last) {
+    const std::size_t count = last - first < ForceBlock::capacity ? last - first : ForceBlock::capacity;
+    for (std::size_t k = 0; k < count; k += width) {
+      const std::size_t b = first + k;
+      const Pair<Lanes> pair = relative_motion<features.rotation>(end_of<features>(in, in.row_lo.data() + b),
+                                                                  end_of<features>(in, in.row_hi.data() + b), in.dt);
+      BondConstants<Lanes> bond{load(in.rest_length.data() + b), load(in.area.data() + b),
+                                load(in.stiffness.data() + b), Lanes(0.0)};
+      if constexpr (features.contact_damping) bond.damping = load(in.damping.data() + b);
+      BondHistory<Lanes> h;
+      h.shear = {load(history.shear_x.data() + b), load(history.shear_y.data() + b), load(history.shear_z.data() + b)};
+      if constexpr (features.plasticity) h.plastic_stretch = load(history.plastic_stretch.data() + b);
+      if constexpr (features.breakage) {
+        h.damage_normal = load(history.damage_normal.data() + b);
+        h.damage_shear = load(history.damage_shear.data() + b);
+      }
+
+      const Vec<Lanes> force = dempack_force<features>(in.law, bond, pair, h);
+
+      store(h.shear.x, history.shear_x.data() + b);
+      store(h.shear.y, history.shear_y.data() + b);
+      store(h.shear.z, history.shear_z.data() + b);
+      if constexpr (features.plasticity) store(h.plastic_stretch, history.plastic_stretch.data() + b);
+      if constexpr (features.breakage) {
+        store(h.damage_normal, history.damage_normal.data() + b);
+        store(h.damage_shear, history.damage_shear.data() + b);
+      }
+      store(force.x, block.fx + k);
+      store(force.y, block.fy + k);
+      store(force.z, block.fz + k);
+      if constexpr (features.rotation) {
+        const Vec<Lanes> turn = pair.arm_ratio * cross(pair.normal, force);
+        store(turn.x, block.tx + k);
+        store(turn.y, block.ty + k);
+        store(turn.z, block.tz + k);
+      }
+    }
+    scatter(to, block, first, count);
+    first += count;
+  }
+}
+
+template <std::size_t... k>
+constexpr std::array<BondPass, sizeof...(k)> all_passes(std::index_sequence<k...>) {
+  return {bond_pass<built_feature_sets[k]>...};
+}
+
+}  // namespace
+
+extern const std::array<BondPass, built_feature_sets.size()> passes;
+const std::array<BondPass, built_feature_sets.size()> passes =
+    all_passes(std::make_index_sequence<built_feature_sets.size()>{});
+
+}  // namespace breccia::BRECCIA_ISA

@@ -1,0 +1,29 @@
+// One pass over a range of candidate contacts; most of them are apart and cost a distance.
+#pragma once
+#include <span>
+
+#include "kernels/linear_contact.hpp"
+#include "kernels/scatter.hpp"
+
+namespace breccia {
+
+struct ContactPassIn {
+  double dt = 0;           ///< s
+  double shear_ratio = 0;  ///< k_s/k_n
+  double friction = 0;     ///< mu_2
+  bool rotation = true;
+  std::span<const Vec3> position, velocity, spin;
+  std::span<const double> radius;
+  std::span<const Index> row_lo, row_hi;
+  std::span<const double> stiffness, damping;  ///< damping may be empty
+};
+
+struct ContactPassHistory {
+  std::span<double> free_length;
+  std::span<Vec3> shear_force;
+};
+
+void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, std::size_t first, std::size_t last,
+                  const Scatter& to);
+
+}  // namespace breccia

@@ -1,0 +1,45 @@
+#include "kernels/integrate.hpp"
+
+namespace breccia {
+namespace {
+
+void kick_spin(const Motion& m, std::size_t row, double dt, double alpha) {
+  if (m.spin.empty()) return;
+  const Vec3 torque = damped(m.torque[row], m.spin[row], alpha);
+  m.spin[row] += (dt / sphere_inertia(m.mass[row], m.radius[row])) * torque;
+  m.torque[row] = {};
+}
+
+}  // namespace
+
+void integrate_free(const Motion& m, std::size_t first, std::size_t last, double dt, const GlobalDamping& damping) {
+  for (std::size_t row = first; row < last; ++row) {
+    const Vec3 force = damped(m.force[row], m.velocity[row], damping.translation);
+    m.velocity[row] += (dt / m.mass[row]) * force;
+    m.position[row] += dt * m.velocity[row];
+    m.force[row] = {};
+    kick_spin(m, row, dt, damping.rotation);
+  }
+}
+
+void integrate_held(const Motion& m, std::size_t first, std::size_t last, double dt, const GlobalDamping& damping,
+                    double platen_velocity, bool rough) {
+  for (std::size_t row = first; row < last; ++row) {
+    Vec3 v = m.velocity[row];
+    if (rough) {
+      v.x = v.y = 0.0;
+    } else {
+      const Vec3 lateral{m.force[row].x, m.force[row].y, 0.0};
+      const Vec3 force = damped(lateral, {v.x, v.y, 0.0}, damping.translation);
+      v.x += dt / m.mass[row] * force.x;
+      v.y += dt / m.mass[row] * force.y;
+    }
+    v.z = platen_velocity;
+    m.velocity[row] = v;
+    m.position[row] += dt * v;
+    m.force[row] = {};
+    kick_spin(m, row, dt, damping.rotation);
+  }
+}
+
+}  // namespace breccia

@@ -1,0 +1,41 @@
+// Adding the force of each bond to both its ends, when several threads work on neighbouring bonds.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "kernels/vec3.hpp"
+
+namespace breccia {
+
+using Index = std::uint32_t;
+
+/// Forces of up to 64 consecutive bonds, as the law leaves them: on lo, and the torque per metre of radius, which is
+/// the same at both ends (torque = radius * turn).
+struct ForceBlock {
+  static constexpr std::size_t capacity = 64;
+  alignas(64) double fx[capacity], fy[capacity], fz[capacity];
+  alignas(64) double tx[capacity], ty[capacity], tz[capacity];
+};
+
+/// Where a range of bonds may add its forces.
+/// own:     plain adds to rows `to_lo`, `to_hi` that no other range touches (particles, or the range's own sums)
+/// atomic:  as own, but a row with the top bit set is a particle that other ranges touch too: added atomically
+/// columns: one force and turn per bond, summed later in a fixed order
+enum class ScatterMode : unsigned char { own, atomic, columns };
+
+inline constexpr Index shared_row = 0x80000000u;
+
+struct Scatter {
+  ScatterMode mode = ScatterMode::own;
+  std::span<const Index> row_lo, row_hi;  ///< particle rows of the ends
+  std::span<const Index> to_lo, to_hi;    ///< rows to add to
+  std::span<const double> radius;         ///< m, per particle
+  std::span<Vec3> force, torque;          ///< N, N m; torque is empty where nothing spins
+  std::span<Vec3> bond_force, bond_turn;  ///< columns: per bond
+};
+
+/// Adds `count` forces of bonds [first, first + count).
+void scatter(const Scatter& to, const ForceBlock& block, std::size_t first, std::size_t count);
+
+}  // namespace breccia
