@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace breccia::h5 {
 namespace {
@@ -31,7 +32,16 @@ std::string innermost_reason() {
 Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make an access list");
   check(H5Pset_file_locking(access, false, true), "do without locks");
+  // Groups since HDF5 1.8 keep their links in one block; files since 1.10 refuse to be opened after a kill.
+  check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "set the version");
   return access;
+}
+
+/// Links stay in the block of the group, and the block has room for so many: adding one overwrites, allocates
+/// nothing.
+void make_room(hid_t creation, unsigned links) {
+  check(H5Pset_link_phase_change(creation, 65535, 65534), "keep links compact");
+  check(H5Pset_est_link_info(creation, links, 12), "make room for links");
 }
 
 struct Types {
@@ -48,6 +58,23 @@ Types types_of(Number number) {
       break;
   }
   return {H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE};
+}
+
+/// Rows of a chunk: at most 16384, and shared out evenly, since a chunk is stored whole.
+hsize_t rows_of_chunk(hsize_t rows) {
+  const hsize_t chunks = (rows + 16383) / 16384;
+  return (rows + chunks - 1) / chunks;
+}
+
+/// Deflate takes five times as long as writing, and gains little on positions and forces; on histories, which
+/// are zero in most bonds, it is fast and gains nearly all. So: where every fourth number repeats the one
+/// before.
+bool is_worth_deflating(const Dataset& dataset) {
+  if (dataset.number != Number::real) return true;
+  const std::span values(static_cast<const double*>(dataset.data), dataset.rows * dataset.components);
+  std::size_t repeats = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) repeats += values[i] == values[i - 1] ? 1 : 0;
+  return 4 * repeats >= values.size();
 }
 
 void write_scalar(hid_t object, const char* name, hid_t file_type, hid_t memory_type, const void* value) {
@@ -72,19 +99,31 @@ Handle open_file(const std::string& name) {
   return {H5Fopen(name.c_str(), H5F_ACC_RDWR, file_access()), H5Fclose, "open"};
 }
 
-Handle create_file(const std::string& name) {
-  return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, file_access()), H5Fclose, "create"};
+Handle create_file(const std::string& name, unsigned links_of_root) {
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "create");
+  make_room(creation, links_of_root);
+  return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, file_access()), H5Fclose, "create"};
 }
 
 Handle create_group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
 }
 
-void remove_if_there(hid_t parent, const std::string& name) {
-  const htri_t there = H5Lexists(parent, name.c_str(), H5P_DEFAULT);
-  check(there, name);
-  if (there > 0) check(H5Ldelete(parent, name.c_str(), H5P_DEFAULT), name);
+Handle create_unlinked_group(hid_t file, unsigned links) {
+  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "make a group");
+  make_room(creation, links);
+  return {H5Gcreate_anon(file, creation, H5P_DEFAULT), H5Gclose, "make a group"};
 }
+
+void link_as(hid_t object, hid_t file, const std::string& parent, const std::string& name) {
+  const Handle group(H5Gopen2(file, parent.c_str(), H5P_DEFAULT), H5Gclose, parent);
+  const htri_t there = H5Lexists(group, name.c_str(), H5P_DEFAULT);
+  check(there, name);
+  if (there > 0) check(H5Ldelete(group, name.c_str(), H5P_DEFAULT), name);
+  check(H5Olink(object, group, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name);
+}
+
+void flush(hid_t file) { check(H5Fflush(file, H5F_SCOPE_LOCAL), "flush"); }
 
 void write_attribute(hid_t object, const char* name, double value) {
   write_scalar(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
@@ -111,10 +150,12 @@ void write_dataset(hid_t group, const Dataset& dataset) {
   const Handle space(H5Screate_simple(rank, extent.data(), nullptr), H5Sclose, name);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
   if (dataset.rows > 0) {
-    const std::array<hsize_t, 2> chunk{std::min<hsize_t>(dataset.rows, 16384), dataset.components};
+    const std::array<hsize_t, 2> chunk{rows_of_chunk(dataset.rows), dataset.components};
     check(H5Pset_chunk(creation, rank, chunk.data()), name);
-    check(H5Pset_shuffle(creation), name);
-    check(H5Pset_deflate(creation, 1), name);
+    if (is_worth_deflating(dataset)) {
+      check(H5Pset_shuffle(creation), name);
+      check(H5Pset_deflate(creation, 1), name);
+    }
     check(H5Pset_fletcher32(creation), name);
   }
   const Types types = types_of(dataset.number);

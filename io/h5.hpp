@@ -45,10 +45,18 @@ private:
 /// Opens an existing file to be changed, or makes a new one. Without HDF5's own locks: a run must not stop
 /// because someone looks at its results.
 Handle open_file(const std::string& name);
-Handle create_file(const std::string& name);
+Handle create_file(const std::string& name, unsigned links_of_root);
 
 Handle create_group(hid_t parent, const std::string& name);
-void remove_if_there(hid_t parent, const std::string& name);
+
+/// A group that nothing refers to yet: until it is linked, the file around it is as it was.
+/// @param links  that it will hold; room for them is set aside in the group itself
+Handle create_unlinked_group(hid_t file, unsigned links);
+
+/// Gives an unlinked group its place; one that has the name already is let go.
+void link_as(hid_t object, hid_t file, const std::string& parent, const std::string& name);
+
+void flush(hid_t file);
 
 void write_attribute(hid_t object, const char* name, double value);
 void write_attribute(hid_t object, const char* name, std::uint64_t value);

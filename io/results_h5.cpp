@@ -67,48 +67,50 @@ template <class Table>
 std::size_t bytes_of(const Table& table, bool (*wanted)(Role)) {
   std::size_t bytes = 0;
   table.for_each_column([&]<class T>(const ColumnInfo& info, const std::vector<T>& column) {
-    // 8 kB: header, attributes and index of chunks; 1/256: check sums, and the index of very many chunks
+    // 8 kB: header, attributes, index of chunks; 1/256: check sums, last rows of chunks, index of many chunks
     if (wanted(info.role) && !column.empty()) bytes += table.size * sizeof(T) * 257 / 256 + 8192;
   });
   return bytes;
 }
 
 constexpr std::size_t bytes_of_group = 65536;  ///< of the groups around the datasets, and their attributes
+constexpr unsigned usual_runs = 64, usual_frames = 128;  ///< more are possible, at a little more risk (below)
 
-// HDF5 changes a file in place. When the disk is full half-way, the new links are in the file and what they
-// lead to is not, and then even the older frames cannot be listed (tried: "addr overflow"); its own exit
-// handler may crash on top. So the space is claimed before HDF5 opens the file, and on closing HDF5 gives
-// back what it did not need. A process that dies in between leaves a file that is too long, which HDF5
-// accepts, never one that is too short, which it refuses.
+// HDF5 changes a file in place: left to itself, a full disk or a kill half-way makes the older frames
+// unreadable too (tried: "addr overflow" when they are listed; its exit handler may crash on top). So the
+// space is claimed before HDF5 opens the file, and HDF5 gives back what it did not need. A process that dies
+// in between leaves a file that is too long, which HDF5 accepts, never one that is too short. And a new group
+// is written and flushed behind everything else before anything refers to it. What is overwritten in place
+// after that is the block of links of its parent, which has room for one more.
 
-/// Makes the file `bytes` longer, or leaves it as it was. Returns its size before.
-std::uintmax_t claim_space(const fs::path& path, std::size_t bytes) {
+/// Makes the file `bytes` longer, or leaves it as it was.
+void claim_space(const fs::path& path, std::size_t bytes) {
   const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) fail_to_write(path, errno);
   const off_t size = ::lseek(file, 0, SEEK_END);
-  int error = size < 0 ? errno : ::posix_fallocate(file, size, static_cast<off_t>(bytes));
+  int error = size < 0 ? errno : EINTR;  // EINTR: a signal asked for a checkpoint
+  while (error == EINTR) error = ::posix_fallocate(file, size, static_cast<off_t>(bytes));
   if (error == EINVAL || error == EOPNOTSUPP) error = 0;  // the file system cannot: as good as it gets
   if (error != 0 && size >= 0 && ::ftruncate(file, size) != 0) error = errno;
   ::close(file);
   if (error != 0) fail_to_write(path, error);
-  return static_cast<std::uintmax_t>(size);
 }
 
-/// Opens the file with room for `bytes` more, lets `write(file)` add `group`, and closes it. Where that
-/// fails, the half-written group is taken out again.
+/// Adds the group parent/name, made for so many links, filled by `write(group)` with `bytes` of columns at
+/// most.
 template <class Write>
-void append(const fs::path& path, std::size_t bytes, const std::string& group, Write&& write) {
+void append(const fs::path& path, const std::string& parent, const std::string& name, std::size_t bytes,
+            unsigned links, Write&& write) {
   h5::be_silent();
   claim_space(path, bytes + bytes_of_group);
   try {
     h5::Handle file = h5::open_file(path.string());
-    try {
-      h5::remove_if_there(file, group);
-      write(static_cast<hid_t>(file));
-    } catch (const h5::Failure&) {
-      H5Ldelete(file, group.c_str(), H5P_DEFAULT);  // its success changes nothing in what is reported
-      throw;
-    }
+    {
+      const h5::Handle group = h5::create_unlinked_group(file, links);
+      write(static_cast<hid_t>(group));
+      h5::flush(file);
+      h5::link_as(group, file, parent, name);
+    }  // a file closes only after its groups
     file.close("close");
   } catch (const h5::Failure& failure) {
     fail_to_write(path, failure.what());
@@ -125,18 +127,16 @@ void create_results(const fs::path& file, std::string_view case_text) {
   const fs::path aside = name_aside(file);
   write_aside(aside, "");
   try {
-    claim_space(aside, case_text.size() + bytes_of_group);  // so that a full disk is told by the system, not by HDF5
-    h5::Handle made = h5::create_file(aside.string());
+    // a full disk is better told by the system than by HDF5
+    claim_space(aside, case_text.size() + bytes_of_group);
+    h5::Handle made = h5::create_file(aside.string(), usual_runs);
     h5::write_attribute(made, "version", std::string_view(BRECCIA_VERSION));
     h5::write_attribute(made, "case", case_text);
     made.close("close");
-  } catch (const h5::Failure& failure) {
+  } catch (const std::exception& error) {
     std::error_code ignored;
     fs::remove(aside, ignored);
-    fail_to_write(file, failure.what());
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(aside, ignored);
+    if (dynamic_cast<const h5::Failure*>(&error) != nullptr) fail_to_write(file, error.what());
     throw;
   }
   move_into_place(aside, file);
@@ -144,9 +144,8 @@ void create_results(const fs::path& file, std::string_view case_text) {
 
 void begin_run(const fs::path& file, int run, std::span<const std::pair<std::string, double>> attributes,
                const ParticleTable& particles, const BondTable& bonds) {
-  const std::string name = name_of_run(run);
-  append(file, bytes_of(particles, stays) + bytes_of(bonds, stays), name, [&](hid_t root) {
-    const h5::Handle group = h5::create_group(root, name);
+  const std::size_t bytes = bytes_of(particles, stays) + bytes_of(bonds, stays);
+  append(file, "/", name_of_run(run), bytes, usual_frames, [&](hid_t group) {
     for (const auto& [key, value] : attributes) h5::write_attribute(group, key.c_str(), value);
     write_columns(h5::create_group(group, "particles"), particles, rows_by_gid(particles), stays);
     write_columns(h5::create_group(group, "bonds"), bonds, rows_by_ends(bonds), stays);
@@ -155,10 +154,9 @@ void begin_run(const fs::path& file, int run, std::span<const std::pair<std::str
 
 void append_frame(const fs::path& file, int run, int frame, const FrameStamp& stamp,
                   const ParticleTable& particles, const BondTable& bonds) {
-  const std::string name = fmt::format("{}/frame-{:03}", name_of_run(run), frame);
+  const std::string name = fmt::format("frame-{:03}", frame);
   const std::size_t bytes = bytes_of(particles, changes) + bytes_of(bonds, changes) + bonds.size + 8192;
-  append(file, bytes, name, [&](hid_t root) {
-    const h5::Handle group = h5::create_group(root, name);
+  append(file, name_of_run(run), name, bytes, 2, [&](hid_t group) {
     h5::write_attribute(group, "time_s", stamp.time_s);
     h5::write_attribute(group, "step", stamp.step);
     h5::write_attribute(group, "axial_strain", stamp.axial_strain);

@@ -17,12 +17,14 @@ struct Column {
   std::function<std::string(const RunSummary&)> text;  ///< empty where the run has no value
 };
 
+bool is_known(const std::optional<double>& value) { return value && std::isfinite(*value); }
+
 /// A quantity in a unit of `scale` SI; decimals as an engineer quotes it.
 Column number(std::string_view name, std::string_view unit, double scale, int decimals,
               std::optional<double> RunSummary::*value) {
   return {name, unit, [=](const RunSummary& run) {
-            const std::optional<double>& found = run.*value;
-            return found && std::isfinite(*found) ? fmt::format("{:.{}f}", *found / scale, decimals) : "";
+            return is_known(run.*value) ? fmt::format("{:.{}f}", *(run.*value) / scale, decimals)
+                                        : std::string();
           }};
 }
 
@@ -32,7 +34,7 @@ std::vector<Column> columns() {
       {"confinement", "MPa", [](const R& run) { return fmt::format("{:.4g}", run.confinement_Pa / 1e6); }},
       {"peak", "MPa",
        [](const R& run) {
-         if (!run.peak_stress_Pa || !std::isfinite(*run.peak_stress_Pa)) return std::string();
+         if (!is_known(run.peak_stress_Pa)) return std::string();
          // the largest stress so far is not a strength
          return fmt::format("{}{:.2f}", run.peak_reached ? "" : "> ", *run.peak_stress_Pa / 1e6);
        }},
@@ -48,13 +50,10 @@ std::vector<Column> columns() {
        [](const R& run) { return fmt::format("{}/{}", run.broken_tension, run.broken_shear); }},
       {"energy error", "1",
        [](const R& run) {
-         return run.energy_error ? fmt::format("{:.1e}", *run.energy_error) : std::string();
+         return is_known(run.energy_error) ? fmt::format("{:.1e}", *run.energy_error) : std::string();
        }},
       {"run time", "s", [](const R& run) { return fmt::format("{:.1f}", run.run_time_s); }},
-      {"bonds", "M/s",
-       [](const R& run) {
-         return run.bond_updates_per_s ? fmt::format("{:.1f}", *run.bond_updates_per_s / 1e6) : std::string();
-       }},
+      number("bonds", "M/s", 1e6, 1, &R::bond_updates_per_s),
       {"stopped by", "", [](const R& run) { return run.stopped_by; }},
   };
 }
@@ -73,7 +72,9 @@ std::string results_of(const std::vector<RunSummary>& runs) {
     }
     for (std::size_t i = 0; i < cells.size(); ++i) lines[i] += fmt::format("  {:>{}}", cells[i], width);
   }
-  return fmt::format("{}\n", fmt::join(lines, "\n"));
+  std::string text;
+  for (const std::string& line : lines) text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+  return text;
 }
 
 /// Shares of the phases in the time of all runs, largest first; what no phase claims is "other".

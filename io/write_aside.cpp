@@ -24,8 +24,10 @@ int write_all(int file, std::string_view content) {
 }
 
 int flush(int file) {
+  int result = ::fsync(file);
+  while (result != 0 && errno == EINTR) result = ::fsync(file);
   // EINVAL, EROFS: a file system that has nothing to flush
-  return ::fsync(file) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
+  return result == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
 }
 
 int write_file(const fs::path& path, std::string_view content) {
