@@ -7,15 +7,16 @@ from .style import HALO, INK, SOFT, megapascal, new_figure, place_labels, run_st
 
 
 def draw_envelope(series, path):
-    runs = [run for run in series.runs if run.summary.get("peak_stress_Pa") is not None]
+    runs = [run for run in series.runs if (run.summary.get("peak_stress_Pa") or 0) > 0]
     if series.test not in COMPRESSION_TO_FAILURE:
         raise CannotDraw(f"{TESTS.get(series.test, series.test)} has no Mohr circles")
     if len(runs) < 2:
         raise CannotDraw("an envelope needs the peaks of two runs in summary.json")
     line = mohr_coulomb_line(series.mohr_coulomb)
     styles = run_styles(series.runs)
-    steepest = max((run.summary["peak_stress_Pa"] - run.confinement) / run.summary["peak_stress_Pa"] for run in runs)
-    height = 1.4 + 3.4 * min(max(steepest, 0.6), 1)  # the circles' panel keeps its aspect
+    peaks = [(run.confinement, run.summary["peak_stress_Pa"]) for run in runs]
+    flatness = max(major - minor for minor, major in peaks) / max(major for _, major in peaks)
+    height = 1.4 + max(2.1, 3.1 * flatness)  # inches; circles are round, so their panel's height follows from its width
     figure, axes = new_figure(series, 10, height, nrows=1, ncols=2, width_ratios=[2.1, 1])
     draw_circles(axes[0, 0], runs, styles, line)
     draw_peaks(axes[0, 1], runs, styles, line)
@@ -25,7 +26,7 @@ def draw_envelope(series, path):
 
 def mohr_coulomb_line(fit):
     """(cohesion in MPa, friction angle in radians), or None where the summary has no fit."""
-    if not fit:
+    if not fit or None in (fit.get("cohesion_Pa"), fit.get("friction_angle_deg")):  # JSON writes null for not-a-number
         return None
     return fit["cohesion_Pa"] / 1e6, np.radians(fit["friction_angle_deg"])
 

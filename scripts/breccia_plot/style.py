@@ -141,9 +141,10 @@ def smallest_loss(figure):
 
 def fewer_colours(picture, colours):
     """PNG of `colours` colours of the picture and 16 true greys: without these, text and grid take on a tint."""
-    own = picture.quantize(colours, method=Image.Quantize.MEDIANCUT).getpalette()[:3 * colours]
+    own = np.reshape(picture.quantize(colours, method=Image.Quantize.MEDIANCUT).getpalette()[:3 * colours], (-1, 3))
+    own = own[np.ptp(own, axis=1) > 16]  # an almost white one would be taken for white
     palette = Image.new("P", (1, 1))
-    palette.putpalette([level for grey in range(0, 256, 17) for level in 3 * [grey]] + own)
+    palette.putpalette([level for grey in range(0, 256, 17) for level in 3 * [grey]] + own.ravel().tolist())
     buffer = io.BytesIO()
     picture.quantize(palette=palette, dither=Image.Dither.NONE).save(buffer, format="png", optimize=True)
     return buffer
