@@ -1,0 +1,14 @@
+"""Pictures of a run folder; each function takes the series and a path, and returns the line to report."""
+from .curves import draw_curves
+from .energy import draw_energy
+from .envelope import draw_envelope
+from .errors import BadInput, CannotDraw, FileTrouble
+from .series import read_series
+from .specimen import draw_specimen
+
+PICTURES = {
+    "curves.png": draw_curves,
+    "envelope.png": draw_envelope,
+    "specimen.png": draw_specimen,
+    "energy.png": draw_energy,
+}
