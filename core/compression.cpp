@@ -5,8 +5,6 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
-#include "core/recorder.hpp"
 
 namespace breccia {
 namespace {
@@ -139,7 +137,7 @@ void load_axially(World& w, const Assembly& assembly, const CompressionTest& tes
   const double duration = test.stop_strain * height / (2.0 * test.platen_speed);
   const double ramp = std::max(2.0 * crossing_time(w), 0.05 * duration);
   const double start = w.time;
-  Recorder recorder;
+  Recorder& recorder = result.record;
   double peak = 0.0;
   int frames = 0;
   const auto frame_if_due = [&](double done, const CurveRow& row, bool last) {
@@ -167,15 +165,12 @@ void load_axially(World& w, const Assembly& assembly, const CompressionTest& tes
     result.stopped = interrupted ? Stopped::interrupted : dropped ? Stopped::peak_drop : Stopped::strain;
     break;
   }
-  result.rows = std::move(recorder.rows);
-  result.mismatch = std::move(recorder.mismatch);
 }
 
 }  // namespace
 
-CompressionResult run_compression(World& w, const Assembly& assembly, const CompressionTest& test,
-                                  const CompressionHooks& hooks) {
-  CompressionResult result;
+void run_compression(World& w, const Assembly& assembly, const CompressionTest& test, const CompressionHooks& hooks,
+                     CompressionResult& result) {
   const auto start = Clock::now();
   Teller teller(hooks);
   if (test.confinement > 0.0 && !press_hydrostatically(w, test.confinement, teller, hooks, result))
@@ -183,7 +178,6 @@ CompressionResult run_compression(World& w, const Assembly& assembly, const Comp
   else
     load_axially(w, assembly, test, teller, hooks, result);
   result.run_time = std::chrono::duration<double>(Clock::now() - start).count();
-  return result;
 }
 
 }  // namespace breccia

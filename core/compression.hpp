@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/curve.hpp"
 #include "core/gauges.hpp"
+#include "core/recorder.hpp"
 #include "core/world.hpp"
 
 namespace breccia {
@@ -22,8 +22,7 @@ struct CompressionTest {
 enum class Stopped { strain, peak_drop, interrupted };
 
 struct CompressionResult {
-  std::vector<CurveRow> rows;      ///< of stage 2; strains from its start
-  std::vector<double> mismatch;    ///< per row: |top - bottom| of the platen stresses, Pa
+  Recorder record;                 ///< rows of stage 2; strains from its start
   Stopped stopped = Stopped::strain;
   std::uint64_t stage1_steps = 0;
   double run_time = 0;             ///< s, wall, of both stages
@@ -38,8 +37,9 @@ struct CompressionHooks {
   std::function<void(const World&, const CurveRow&)> frame;
 };
 
-/// @throws SimulationBroke when a number is not finite or the specimen explodes
-CompressionResult run_compression(World& world, const Assembly& assembly, const CompressionTest& test,
-                                  const CompressionHooks& hooks);
+/// @param result  filled as the run goes, so that what there is survives an exception
+/// @throws SimulationBroke when a number is not finite
+void run_compression(World& world, const Assembly& assembly, const CompressionTest& test,
+                     const CompressionHooks& hooks, CompressionResult& result);
 
 }  // namespace breccia

@@ -64,7 +64,7 @@ CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double>
 
   for (std::size_t k = 0; k <= f.peak_row; ++k) {
     f.platen_mismatch = std::max(f.platen_mismatch, mismatch[k] / f.peak_deviator);
-    if (deviator(rows[k]) > 0.05 * f.peak_deviator && rows[k].stored_J > 0)
+    if (deviator(rows[k]) > 0.5 * f.peak_deviator && rows[k].stored_J > 0)
       f.kinetic_ratio = std::max(f.kinetic_ratio, rows[k].kinetic_J / rows[k].stored_J);
   }
   return f;

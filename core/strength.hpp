@@ -18,7 +18,8 @@ struct CurveFindings {
   double strain_at_peak = 0;
   std::optional<double> young_modulus, young_modulus_50, poisson_ratio;
   std::optional<double> crack_initiation_stress, crack_damage_stress;  ///< Pa
-  double kinetic_ratio = 0;    ///< largest kinetic over stored, from 5 % of the peak to the peak
+  double kinetic_ratio = 0;    ///< largest kinetic over stored, from half the peak to the peak (before, the
+                               ///< specimen's uniform motion alone outweighs the little that is stored)
   double platen_mismatch = 0;  ///< largest |top - bottom| over the peak deviator, up to the peak
 };
 

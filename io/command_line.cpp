@@ -1,0 +1,95 @@
+#include "io/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <sched.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <new>
+
+#include "core/error.hpp"
+#include "io/case.hpp"
+
+namespace breccia {
+namespace {
+
+std::atomic<bool> stop_asked = false;
+
+void ask_to_stop(int) { stop_asked = true; }
+
+int available_cores() {
+  cpu_set_t mask;
+  CPU_ZERO(&mask);
+  return sched_getaffinity(0, sizeof(mask), &mask) == 0 ? std::max(1, CPU_COUNT(&mask)) : 1;
+}
+
+int end(const std::string& program, std::string_view what, int code) {
+  std::string line(what);
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  fmt::print(stderr, "{}: {}\n", program, line);
+  return code;
+}
+
+/// Ranks are counted by the launcher's environment: MPI itself is not needed to refuse them.
+void refuse_ranks() {
+  const char* ranks = std::getenv("OMPI_COMM_WORLD_SIZE");
+  if (ranks && std::atoi(ranks) > 1)
+    fail<BadInput>("{} ranks asked for; this version runs on one (use --threads)", ranks);
+}
+
+}  // namespace
+
+bool interrupted() { return stop_asked; }
+
+int run_program(const std::string& name, const std::string& about, int argc, char** argv,
+                const std::function<void(const CommandLine&)>& body) {
+  const std::string program = "breccia-" + name;
+  CommandLine line;
+  line.program = name;
+  line.threads = available_cores();
+  CLI::App app(about, program);
+  bool resume = false;
+  app.set_version_flag("--version", std::string(BRECCIA_VERSION));
+  app.add_option("CASE.toml", line.case_file, "the case to run")->required();
+  app.add_option("--set", line.sets, "table.key=value, instead of the case's")->allow_extra_args(false);
+  app.add_option("--out", line.out, "folder for the results [out/CASE]");
+  app.add_option("--threads", line.threads, fmt::format("[{} here]", line.threads))->check(CLI::Range(1, 4096));
+  app.add_flag("--explain", line.explain, "say what the scene uses and leaves out; write nothing");
+  app.add_flag("--dry-run", line.dry_run, "read, check, bond, print; write nothing");
+  app.add_flag("--force", line.force, "replace results that are there");
+  app.add_flag("--quiet", line.quiet, "errors only");
+  app.add_flag("--resume", resume, "not in this version");
+  app.footer("Keys of the case:\n" + describe_keys(name));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return end(program, fmt::format("{} (see {} --help)", error.what(), program), 2);
+  }
+  if (line.out.empty()) line.out = std::filesystem::path("out") / line.case_file.stem();
+
+  struct sigaction action {};
+  action.sa_handler = ask_to_stop;
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(line.threads));
+  try {
+    if (resume) fail<BadInput>("--resume: not in this version; run without it, with --force to replace the results");
+    refuse_ranks();
+    body(line);
+  } catch (const BadInput& error) {
+    return end(program, error.what(), 2);
+  } catch (const SimulationBroke& error) {
+    return end(program, error.what(), 3);
+  } catch (const FileTrouble& error) {
+    return end(program, error.what(), 4);
+  } catch (const std::bad_alloc&) {
+    return end(program, "not enough memory: use fewer spheres", 3);
+  }
+  return interrupted() ? 130 : 0;
+}
+
+}  // namespace breccia

@@ -1,0 +1,28 @@
+// The command line that all programs share, and how they end. DESIGN: what a user meets.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace breccia {
+
+struct CommandLine {
+  std::string program;               ///< "triaxial"
+  std::filesystem::path case_file;
+  std::vector<std::string> sets;     ///< --set table.key=value
+  std::filesystem::path out;         ///< --out, or out/STEM-OF-CASE
+  int threads = 1;
+  bool explain = false, dry_run = false, force = false, quiet = false;
+};
+
+/// True once SIGINT, SIGTERM or SIGUSR1 has come.
+bool interrupted();
+
+/// Reads the command line, runs `body` and turns what it throws into one line on stderr and the exit code:
+/// 0 done, 2 bad input, 3 the simulation broke, 4 files, 130 interrupted.
+/// @param about  one line for --help
+int run_program(const std::string& name, const std::string& about, int argc, char** argv,
+                const std::function<void(const CommandLine&)>& body);
+
+}  // namespace breccia
