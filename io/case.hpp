@@ -14,7 +14,7 @@
 namespace breccia {
 
 struct SpecimenCase {
-  std::optional<std::filesystem::path> file;
+  std::optional<std::filesystem::path> file;  ///< the case's folder in front
   std::optional<PackRequest> pack;
   Body body;
   char axis = 'z';              ///< of the cylinder or disc in the file
@@ -50,6 +50,7 @@ struct FeatureCase {                      ///< what the scene may leave out
 struct Case {
   std::filesystem::path source;          ///< the case file
   SpecimenCase specimen;
+  std::string preset;                    ///< name of the material preset; empty: none
   std::vector<Material> materials;       ///< one per confinement, in the order of test.confinement
   BondsCase bonds;
   DampingCase damping;
@@ -67,5 +68,8 @@ struct Case {
 /// @param test   name of the program: "ucs", "triaxial", "pack", ... (some keys belong to some tests only)
 /// @throws BadInput: one line with file, line, key and the nearest valid choice
 Case load_case(const std::filesystem::path& file, const std::vector<std::string>& sets, const std::string& test);
+
+/// The keys that a test accepts, one a line: name, what is valid, default, meaning. For `--help`.
+std::string describe_keys(const std::string& test);
 
 }  // namespace breccia

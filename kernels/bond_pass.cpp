@@ -16,16 +16,17 @@ static_assert(bond_batch % width == 0 && ForceBlock::capacity % bond_batch == 0)
 Lanes load(const double* p) { return Lanes(p, std::experimental::element_aligned); }
 void store(const Lanes& r, double* p) { r.copy_to(p, std::experimental::element_aligned); }
 
-Lanes gather(const double* column, const Index* rows) {
-  return Lanes([&](auto k) { return column[rows[k]]; });
+[[gnu::always_inline]] inline Lanes gather(const double* column, const Index* rows) {
+  return Lanes([&](auto k) [[gnu::always_inline]] { return column[rows[k]]; });
 }
-Vec<Lanes> gather(const Vec3* column, const Index* rows) {
-  return {Lanes([&](auto k) { return column[rows[k]].x; }), Lanes([&](auto k) { return column[rows[k]].y; }),
-          Lanes([&](auto k) { return column[rows[k]].z; })};
+[[gnu::always_inline]] inline Vec<Lanes> gather(const Vec3* column, const Index* rows) {
+  return {Lanes([&](auto k) [[gnu::always_inline]] { return column[rows[k]].x; }),
+          Lanes([&](auto k) [[gnu::always_inline]] { return column[rows[k]].y; }),
+          Lanes([&](auto k) [[gnu::always_inline]] { return column[rows[k]].z; })};
 }
 
 template <Features features>
-End<Lanes> end_of(const BondPassIn& in, const Index* rows) {
+[[gnu::always_inline]] inline End<Lanes> end_of(const BondPassIn& in, const Index* rows) {
   End<Lanes> e;
   e.x = gather(in.position.data(), rows);
   e.v = gather(in.velocity.data(), rows);

@@ -1,0 +1,107 @@
+#include "io/case_material.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "io/nearest.hpp"
+
+namespace breccia {
+namespace {
+
+std::vector<std::filesystem::path> material_folders(const std::filesystem::path& case_folder) {
+  std::vector<std::filesystem::path> folders{case_folder / "materials", case_folder / ".." / "materials"};
+  if (const char* data = std::getenv("BRECCIA_DATA"); data && *data)
+    folders.push_back(std::filesystem::path(data) / "materials");
+  folders.push_back(std::filesystem::path(BRECCIA_DATA_DIR) / "materials");
+  return folders;
+}
+
+std::vector<std::string> presets_in(const std::vector<std::filesystem::path>& folders) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& folder : folders)
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+/// `low`, then what stands for one confinement, then the rest.
+Layer laid(const MaterialLayers& m, const Layer* preset_at, const Layer* given_at) {
+  Layer result = m.preset;
+  if (preset_at) lay_over(result, *preset_at);
+  lay_over(result, m.given);
+  if (given_at) lay_over(result, *given_at);
+  lay_over(result, m.set);
+  result.erase("material.preset");
+  for (const char* name : {"material.law", "material.criterion"})
+    if (!result.contains(name)) result[name] = {read_standard(*find_key(name), ""), ""};
+  return result;
+}
+
+}  // namespace
+
+Source read_preset(const std::string& name, const std::string& place,
+                   const std::filesystem::path& case_folder) {
+  const auto folders = material_folders(case_folder);
+  std::error_code ignored;
+  if (name.find('/') == std::string::npos)
+    for (const auto& folder : folders) {
+      const auto file = (folder / (name + ".toml")).lexically_normal();
+      if (std::filesystem::is_regular_file(file, ignored)) return read_preset_source(read_toml(file));
+    }
+  const auto present = presets_in(folders);
+  if (present.empty())
+    refuse(place, "material.preset",
+           fmt::format("no preset {}: no materials/*.toml found; set BRECCIA_DATA", quote(name)));
+  const std::string best = nearest(name, present);
+  refuse(place, "material.preset",
+         fmt::format("no preset {}; {}valid: {}", quote(name),
+                     best.empty() ? "" : "did you mean " + quote(best) + "? ", quote_list(present)));
+}
+
+Layer material_at(const MaterialLayers& m, double confinement) {
+  return laid(m, find_confinement(m.preset_at, confinement), find_confinement(m.given_at, confinement));
+}
+
+Layer material_base(const MaterialLayers& m) { return laid(m, nullptr, nullptr); }
+
+Material make_material(const Layer& layer, const FeatureCase& features, Elasticity elasticity,
+                       const std::string& file) {
+  const auto need = [&](const char* name, const char* otherwise = nullptr, const char* unless = nullptr) {
+    const std::string full = std::string("material.") + name;
+    if (layer.contains(full) || (otherwise && layer.contains(std::string("material.") + otherwise))) return;
+    const std::string or_else = otherwise ? fmt::format(" (or {})", otherwise) : "";
+    const std::string or_off = unless ? fmt::format(", or set features.{} = false", unless) : "";
+    refuse(file, full + or_else, fmt::format("missing; give it, or a material.preset{}", or_off));
+  };
+  need("density");
+  need("young_modulus");
+  need("poisson_ratio");
+  need("friction_dynamic");
+  if (features.plasticity) {
+    need("limit_compressive_stress", nullptr, "plasticity");
+    need("stiffness_reduction", nullptr, "plasticity");
+  }
+  if (features.breakage) {
+    need("friction_static", nullptr, "breakage");
+    need("tensile_strength", nullptr, "breakage");
+    need("shear_strength", nullptr, "breakage");
+    need("damage_normal", "fracture_energy_normal", "breakage");
+    need("damage_shear", "fracture_energy_shear", "breakage");
+  }
+  Material material;
+  for (const auto& [name, given] : layer)
+    if (const Key* key = find_key(name); key && key->store_material)
+      key->store_material(material, given.reading);
+  constexpr double largest = 0.25;  // MODEL: kappa = (1 - 4 nu)/(1 + nu) falls to zero there
+  if (elasticity == Elasticity::matched && material.poisson_ratio > largest)
+    refuse(layer.find("material.poisson_ratio")->second.place, "material.poisson_ratio",
+           fmt::format("must be at most {} with bonds.elasticity = \"matched\", not {}", largest,
+                       material.poisson_ratio));
+  return material;
+}
+
+}  // namespace breccia

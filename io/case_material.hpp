@@ -1,0 +1,38 @@
+// Materials of a case: presets found and read, layers laid for each confinement.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/case_layer.hpp"
+
+namespace breccia {
+
+/// Layers of the material as they stand for one case, lowest first.
+struct MaterialLayers {
+  Layer preset;
+  std::vector<ConfinementLayer> preset_at;
+  Layer given;  ///< the case's [material]
+  std::vector<ConfinementLayer> given_at;
+  Layer set;  ///< --set
+};
+
+/// Reads the preset called `name` from materials/ beside the case, beside its folder, in $BRECCIA_DATA, in
+/// the source tree.
+/// @param place  where the name was given
+/// @throws BadInput: unknown name, with those present; or what is wrong in the preset's file
+Source read_preset(const std::string& name, const std::string& place,
+                   const std::filesystem::path& case_folder);
+
+/// The keys in force at a confinement: --set, the case's [[material.at]], [material], the preset's [[at]],
+/// the preset.
+Layer material_at(const MaterialLayers&, double confinement);
+
+/// The keys in force where no confinement is named; a confinement changes some of them.
+Layer material_base(const MaterialLayers&);
+
+/// Checks that nothing is missing for the features in use and fills a Material.
+/// @param file  named where a key is missing
+Material make_material(const Layer&, const FeatureCase&, Elasticity, const std::string& file);
+
+}  // namespace breccia

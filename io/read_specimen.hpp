@@ -1,0 +1,33 @@
+// Specimens from files, put in place and checked.
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "core/specimen.hpp"
+
+namespace breccia {
+
+/// @throws BadInput unless the file's ending is one that `read_specimen` knows
+void check_specimen_type(const std::filesystem::path& file);
+
+/// Reads the spheres of a file, as they lie in it.
+/// .csv: header `id,x_m,y_m,z_m,r_m`, then optionally `group`; lines that begin with # are comments.
+/// .mdpa (Kratos): the nodes of spheric particles; groups from NodalData COHESIVE_GROUP.
+/// @throws BadInput: one line with file and line: absent, empty, not a number, columns, double id, radius not
+/// above zero
+Specimen read_specimen(const std::filesystem::path& file);
+
+/// Turns the axis to z by a cyclic permutation of the coordinates and moves the middle of the box around the
+/// spheres, or `centre` (m, in the coordinates of the file), to the origin.
+Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {});
+
+/// Checks a specimen that is in place.
+/// @throws BadInput: no sphere, two spheres with one centre, a centre outside the body by more than 2 % of
+/// the diameter
+void check_specimen(const Specimen&, const Body&);
+
+/// Writes spheres as .csv such that they read back bit for bit; aside first, then renamed.
+/// @throws FileTrouble
+void write_specimen_csv(const std::filesystem::path& file, const Specimen&);
+
+}  // namespace breccia
