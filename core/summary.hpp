@@ -1,5 +1,4 @@
-// What a run and a series of runs came to. Field names are the keys of summary.json, with their units in the
-// names.
+// What a run and a series of runs came to. Field names are the keys of summary.json, with their units.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -33,8 +32,8 @@ struct RunSummary {
   double time_step_s = 0;
   std::optional<double> critical_time_step_s;
   double run_time_s = 0;  ///< wall time of the time loop
-  std::vector<std::pair<std::string, double>>
-      phases_s;                              ///< wall time of each phase of the step, in its order
+  /// wall time of each phase of the step, in its order
+  std::vector<std::pair<std::string, double>> phases_s;
   std::optional<double> bond_updates_per_s;  ///< bonds x steps over run time less output and checkpoint
   std::optional<double> bond_pass_per_s;     ///< bonds x steps over phases bonds + gather
   std::optional<double> energy_error;        ///< of the work put in

@@ -180,8 +180,13 @@ void write_bonds_vtp(const std::filesystem::path& file, const ParticleTable& par
   picture.offsets = counting("offsets", rows.size(), 2, 2);
   picture.cell_data.push_back(
       array_of("state", rows, [&](Row row) { return static_cast<std::uint8_t>(bond_state(bonds, row)); }));
-  bonds.for_each_column(
-      [&](const ColumnInfo& info, const auto& column) { add_column(picture.cell_data, info, column, rows); });
+  // one vector rather than its three components
+  picture.cell_data.push_back(array_of("shear_force", rows, [&](Row row) {
+    return Vec3{bonds.shear_x[row], bonds.shear_y[row], bonds.shear_z[row]};
+  }));
+  bonds.for_each_column([&](const ColumnInfo& info, const auto& column) {
+    if (!info.name.starts_with("shear_")) add_column(picture.cell_data, info, column, rows);
+  });
   write_aside(file, text_of(picture));
 }
 

@@ -53,9 +53,9 @@ def read_h5(path):
         equal(dict(frame.attrs), {"time_s": 2e-3, "step": 20, "axial_strain": 2e-4}, "attributes of the frame")
         equal(sorted(frame["particles"]), ["position", "spin", "velocity"], "columns that change")
         equal(sorted(frame["bonds"]),
-              ["damage_normal", "damage_shear", "plastic_stretch", "shear_force", "state"], "of bonds")
+              ["damage_normal", "damage_shear", "plastic_stretch", "shear_x", "shear_y", "shear_z", "state"], "of bonds")
         equal(frame["particles/position"][:].tolist(), [[g + 1e-3 * g, 2 * g, 3 * g] for g in PARTICLES], "position")
-        equal(frame["bonds/shear_force"][:].tolist(), [[n, -n, 0] for n in BOND_NUMBERS], "shear_force")
+        equal(frame["bonds/shear_y"][:].tolist(), [-n for n in BOND_NUMBERS], "shear_y")
         equal(frame["bonds/state"][:].tolist(), [2, 0, 0, 1], "state")
         equal(frame["bonds/state"].dtype.name, "uint8", "type of state")
         equal(sorted(file["run-1/bonds"]), ["area", "gid_hi", "gid_lo", "rest_length", "stiffness"], "lean bonds")

@@ -96,7 +96,8 @@ struct Scene {
       bonds.area[i] = 2 * g;
       bonds.stiffness[i] = 3 * g;
       if (features.contact_damping) bonds.damping[i] = 4 * g;
-      bonds.shear_force[i] = {g, -g, 0};
+      bonds.shear_x[i] = g;
+      bonds.shear_y[i] = -g;
       if (features.plasticity) bonds.plastic_stretch[i] = -g;
     }
     if (features.breakage) {
