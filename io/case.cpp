@@ -122,7 +122,9 @@ struct Checks {
 
   /// A [[material.at]] that no run uses is a slip of the pen, unless --set has chosen other confinements.
   void confinements(const std::vector<ConfinementLayer>& groups) const {
-    if (test == "bts" || place("test.confinement") == "--set") return;
+    if (const Key* key = find_key("test.confinement"); !accepts(*key, test) && !groups.empty())
+      refuse(groups.front().place, "material.at", fmt::format("{}; leave it out", key->why_not));
+    if (place("test.confinement") == "--set") return;
     std::string list;
     for (double p : c.test.confinement)
       list += (list.empty() ? "" : ", ") + format_quantity(p, dimension::stress);

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "io/nearest.hpp"
+#include "io/text_file.hpp"
 
 namespace breccia {
 namespace {
@@ -29,23 +30,35 @@ struct Walker {
 
   std::string shown(const std::string& name) const { return preset ? name.substr(material.size()) : name; }
 
-  [[noreturn]] void refuse_unknown(const std::string& name, const std::string& place) const {
-    std::vector<std::string> names, same_end;
+  /// Names of the keys and tables right below a table, as a user reads them.
+  std::vector<std::string> names_below(const std::string& prefix) const {
+    std::vector<std::string> names;
     for (const std::string& key : key_names(test)) {
-      if (preset && (!key.starts_with(material) || key == "material.preset")) continue;
-      names.push_back(shown(key));
-      if (last_part(key) == last_part(name)) same_end.push_back(shown(key));
+      if (!key.starts_with(prefix) || (preset && key == "material.preset")) continue;
+      const std::string name = shown(key.substr(0, key.find('.', prefix.size())));
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
-    if (preset) names.insert(names.end(), {"at", "source"});
-    if (!same_end.empty())
-      refuse(place, shown(name), fmt::format("unknown key; did you mean {}?", quote(same_end.front())));
-    const std::string best = nearest(shown(name), names);
-    if (!best.empty()) refuse(place, shown(name), fmt::format("unknown key; did you mean {}?", quote(best)));
-    const std::string table = name.substr(0, std::min(name.rfind('.'), name.size()));
-    std::vector<std::string> valid = preset ? names : key_names(test, table);
-    if (valid.empty())
-      valid = {"specimen", "material", "bonds", "damping", "test", "time", "run", "features", "output"};
-    refuse(place, shown(name), "unknown key; valid: " + quote_list(valid));
+    if (prefix == material) names.push_back(preset ? "at" : std::string(at_tables));
+    if (preset) names.push_back("source");
+    return names;
+  }
+
+  /// Suggests the nearest name of the same table, else the same word in another table, else all of the table.
+  [[noreturn]] void refuse_unknown(const std::string& name, const std::string& place) const {
+    const auto suggested = [&](const std::string& other) {
+      refuse(place, shown(name), fmt::format("unknown key; did you mean {}?", quote(other)));
+    };
+    const std::string prefix = name.substr(0, name.rfind('.') + 1);
+    std::vector<std::string> names = names_below(prefix);
+    std::vector<std::string> words;
+    for (const std::string& other : names) words.push_back(last_part(other));
+    if (const std::string best = nearest(last_part(name), words); !best.empty())
+      suggested(shown(prefix + best));
+    if (!preset)
+      for (const std::string& key : key_names(test))
+        if (last_part(key) == last_part(name)) suggested(key);
+    if (names.empty()) names = names_below("");
+    refuse(place, shown(name), "unknown key; valid: " + quote_list(names));
   }
 
   void take(const Key& key, const TomlNode& node, Layer& layer) const {
@@ -95,7 +108,7 @@ struct Walker {
         if (word == "confinement")
           group.confinement = read_value(at_confinement, child).number, group.place = child.place;
         else if (word == "preset" || word == "at")
-          refuse_unknown(std::string(at_tables) + "." + word, child.place);
+          refuse(child.place, name + "." + word, "not for one confinement; it belongs to the whole material");
         else
           others.emplace_back(word, child);
       }
@@ -146,7 +159,7 @@ Source read_set_source(const std::vector<std::string>& sets, const std::string& 
   Walker all{test};
   for (const std::string& text : sets) {
     const std::size_t equals = text.find('=');
-    const std::string name = text.substr(0, equals);
+    const std::string name(trim(std::string_view(text).substr(0, equals)));
     if (equals == std::string::npos || name.empty() || name.find_first_not_of(letters) != std::string::npos)
       fail<BadInput>("--set: {}: write --set table.key=value", quote(text));
     TomlNode node = parse_toml_value(text.substr(equals + 1), "--set");

@@ -113,7 +113,11 @@ std::string read_word(const Key& key, const TomlNode& node) {
 }  // namespace
 
 void refuse(const std::string& place, std::string_view key, const std::string& text) {
-  fail<BadInput>("{}: {}: {}", place, key, text);
+  std::string line = fmt::format("{}: {}: {}", place, key, text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; },
+      ' ');  // a quoted key may hold any
+  throw BadInput(line);
 }
 
 Reading read_value(const Key& key, const TomlNode& node) {

@@ -86,7 +86,7 @@ std::string describe_keys(const std::string& test) {
     const std::string_view standard = standard_of(key, test);
     text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), valid_values(key),
                         standard.empty() ? "-" : standard, key.meaning);
-    if (key.name == "material.preset")
+    if (key.name == "material.preset" && accepts(*find_key("test.confinement"), test))
       text += fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
                           "a table [[material.at]]: keys of the material for one confinement");
   }

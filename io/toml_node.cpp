@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "io/nearest.hpp"
+#include "io/text_file.hpp"
 
 namespace breccia {
 namespace {
@@ -91,7 +92,7 @@ TomlNode parse_toml_value(const std::string& text, const std::string& place) {
       // a bare word or a quantity without quotes, as one writes it in a shell
     }
   }
-  return {text, place, 0};
+  return {std::string(trim(text)), place, 0};
 }
 
 std::string toml_string(const std::string& text) {

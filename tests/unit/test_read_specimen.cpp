@@ -277,3 +277,19 @@ TEST_CASE("specimen: the meshes behind the source documents lie inside their nom
     CHECK_NOTHROW(check_specimen(place_specimen(s, mesh.axis), mesh.body));
   }
 }
+
+TEST_CASE("specimen: the two-sphere benchmarks of Kratos are read") {
+  const std::filesystem::path folder = std::filesystem::path(BRECCIA_SOURCE_DIR) / "../shared/reference";
+  if (!std::filesystem::exists(folder)) {
+    MESSAGE("skipped: no " << folder.string());
+    return;
+  }
+  for (const char* name : {"benchmark22DEM.mdpa", "benchmark24DEM.mdpa"}) {
+    const Specimen s = read_specimen(folder / name);
+    REQUIRE(s.spheres.size() == 2);
+    CHECK(s.spheres[0].id == 140);
+    CHECK(s.spheres[0].centre == Vec3{-1, 0, 0});
+    CHECK(s.spheres[1].radius == 1);
+    CHECK(s.spheres[1].group == 1);
+  }
+}
