@@ -121,7 +121,7 @@ RunSummary summarise(const World& w, const Assembly& a, const CompressionTest& t
 void fit_peaks(SeriesSummary& series) {
   std::vector<double> confinement, peak;
   for (const RunSummary& run : series.runs) {
-    if (!run.peak_stress_Pa || run.stopped_by == "interrupted") continue;
+    if (!run.peak_reached) continue;  // the largest stress so far is not a strength
     confinement.push_back(run.confinement_Pa);
     peak.push_back(*run.peak_stress_Pa);
   }
