@@ -63,9 +63,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
                                      std::max(options.global_damping.translation, options.global_damping.rotation),
                                      options.threads);
   w.dt = options.safety * w.critical_dt;
-  Assembly with_masses = assembly;
-  with_masses.particles.mass = w.particles.mass;
-  w.platens = make_platens(with_masses, options.rough_platens, material.young_modulus);
+  w.platens = make_platens(assembly, w.particles, options.rough_platens, material.young_modulus);
   w.confinement = make_confinement(assembly);
   w.search = make_contact_search(assembly, options.new_contacts, 0.2 * assembly.mean_radius);
   const bool torques = w.features.rotation;
