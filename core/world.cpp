@@ -24,7 +24,9 @@ void set_bond_constants(World& w) {
   for (std::size_t k = 0; k < b.padded; ++k) {
     const Row lo = b.row_lo[k], hi = b.row_hi[k];
     b.area[k] *= w.alpha;
-    b.stiffness[k] = w.law.young * b.area[k] / strain_length_of(b.rest_length[k], p.radius[lo] + p.radius[hi]);
+    const bool padding = k >= b.size;
+    const double length = strain_length_of(b.rest_length[k], p.radius[lo] + p.radius[hi]);
+    b.stiffness[k] = padding ? 0.0 : w.law.young * b.area[k] / length;
     if (b.damping.empty()) continue;
     const double reduced_mass = p.mass[lo] * p.mass[hi] / (p.mass[lo] + p.mass[hi]);
     b.damping[k] = 2.0 * w.options.contact_damping * std::sqrt(reduced_mass * b.stiffness[k]);

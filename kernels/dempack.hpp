@@ -114,7 +114,7 @@ inline BondForce<R> breakable_force(const DempackLaw& law, const BondConstants<R
   const R zero(0.0), one(1.0);
   R normal = bond.stiffness * elastic_stretch;
   auto broken = h.damage_normal >= one || h.damage_shear >= one;
-  const auto pulled = elastic_stretch > zero;
+  const auto pulled = normal > zero;  // never a padding bond, which has no stiffness
   const R limit_tension = R(law.tensile_strength) * bond.area;
   const R limit_cohesion = R(law.shear_strength) * bond.area;
   const bool damaged = any(h.damage_normal > zero || h.damage_shear > zero);
