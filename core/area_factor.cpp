@@ -19,7 +19,7 @@ double fabric_of(const Assembly& a) {
 /// Affine deformation: E = alpha T E (2 + 3 kappa)/(4 + kappa), an upper bound on the stiffness.
 double affine_alpha(double fabric, double kappa) { return (4.0 + kappa) / (2.0 + 3.0 * kappa) / fabric; }
 
-/// Onate et al. 2015, eq. 22, with the porosity in percent: 40 P/N_c.
+/// Onate et al. 2015, eq. 22: 40 P/N_c, with P the porosity (a fraction) and N_c the coordination number.
 double porosity_alpha(const Assembly& a) {
   double solid = 0.0;
   for (const double r : a.particles.radius) solid += 4.0 / 3.0 * std::numbers::pi * r * r * r;

@@ -127,7 +127,7 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
     b.row_lo[row] = l.lo;
     b.row_hi[row] = l.hi;
     b.rest_length[row] = l.length;
-    b.area[row] = pi * smaller * smaller;  // of padding too: stresses and strains of it stay numbers
+    b.area[row] = pi * smaller * smaller;  // of padding too: its stresses and strains stay numbers
     if (!padding && l.length < 0.2 * (p.radius[l.lo] + p.radius[l.hi])) ++a.short_bonds;
   }
   a.coordination = 2.0 * static_cast<double>(links.size()) / static_cast<double>(n);

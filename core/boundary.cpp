@@ -5,14 +5,14 @@
 
 namespace breccia {
 
-Platens make_platens(const Assembly& a, bool rough, double young_modulus) {
+Platens make_platens(const Assembly& a, const ParticleTable& particles, bool rough, double young_modulus) {
   Platens p;
   p.rough = rough;
   p.section = a.section();
   double specimen_mass = 0.0;
-  for (std::size_t row = 0; row < a.particles.size; ++row) {
-    specimen_mass += a.particles.mass[row];
-    if (row >= a.particles.free) p.mass[row >= a.first_top] += a.particles.mass[row];
+  for (std::size_t row = 0; row < particles.size; ++row) {
+    specimen_mass += particles.mass[row];
+    if (row >= particles.free) p.mass[row >= a.first_top] += particles.mass[row];
   }
   // the axial wave impedance of the specimen: critical for half its mass on half its stiffness, and a wave that
   // reaches the platen is swallowed instead of sent back

@@ -20,7 +20,9 @@ struct Platens {
   std::array<double, 2> stress{};    ///< Pa, reaction over section, positive in compression
 };
 
-Platens make_platens(const Assembly& assembly, bool rough, double young_modulus);
+/// @param particles      with their masses
+/// @param young_modulus  Pa, of the specimen
+Platens make_platens(const Assembly& assembly, const ParticleTable& particles, bool rough, double young_modulus);
 
 /// Reactions of this step, and for a servo the velocity that follows from them.
 void drive_platens(Platens& platens, const ParticleTable& particles, std::size_t first_top, double dt);

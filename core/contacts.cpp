@@ -67,7 +67,7 @@ bool search_is_due(ContactSearch& s, const ParticleTable& p, std::uint64_t step,
   if (s.slack <= 0.0) return true;  // pairs that overlap unbonded are in contact from the start
 
   double top = 0.0, square = 0.0;  // even stretch along the axis: least squares of u_z over z
-  for (std::size_t row = 0; row < p.size; row += 7) {
+  for (std::size_t row = 0; row < p.size; ++row) {
     top += s.position[row].z * (p.position[row].z - s.position[row].z);
     square += s.position[row].z * s.position[row].z;
   }

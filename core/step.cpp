@@ -12,9 +12,9 @@ void search_if_due(World& w) {
   const Lap lap(w.phases, Phase::search);
   if (!search_is_due(w.search, w.particles, w.step, w.dt, w.options.threads)) return;
   const ContactMaterial material{w.material.young_modulus, w.alpha, w.options.contact_damping};
-  renew_contacts(w.search, w.contacts, w.particles, material, w.options.features, w.options.threads);
+  renew_contacts(w.search, w.contacts, w.particles, material, w.features, w.options.threads);
   w.contact_plan = plan_scatter(w.options.scatter, w.options.threads, 1, w.contacts.row_lo, w.contacts.row_hi,
-                                w.contacts.gid_lo, w.contacts.gid_hi, w.particles.size, w.options.features.rotation);
+                                w.contacts.gid_lo, w.contacts.gid_hi, w.particles.size, w.features.rotation);
 }
 
 void confine(World& w) {
@@ -41,7 +41,7 @@ void contact_forces(World& w) {
   ParticleTable& p = w.particles;
   ContactTable& c = w.contacts;
   const Scatter to = scatter_view(w.contact_plan, c.row_lo, c.row_hi, p);
-  const ContactPassIn in{w.dt,     w.law.shear_ratio, w.law.friction_dynamic, w.options.features.rotation,
+  const ContactPassIn in{w.dt,     w.law.shear_ratio, w.law.friction_dynamic, w.features.rotation,
                          p.position, p.velocity,      p.spin,                 p.radius,
                          c.row_lo, c.row_hi,          c.stiffness,            c.damping};
   const ContactPassHistory history{c.free_length, c.shear_force};

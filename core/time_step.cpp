@@ -79,11 +79,11 @@ double critical_time_step(const ParticleTable& p, const BondTable& b, double she
   Eigen::VectorXd mode;
   constexpr int turns = 6;
   for (int turn = 0; turn < turns; ++turn) {
-    const StepOperator both = step_operator(p, b, threads, [&](std::size_t k) {
+    StepOperator both = step_operator(p, b, threads, [&](std::size_t k) {
       const double stiff = 0.25 * dt * dt * b.stiffness[k];
       return SpringConstants{stiff + 0.5 * dt * damper(k), shear_ratio * stiff};
     });
-    Spectra::SymEigsSolver<StepOperator> solver(const_cast<StepOperator&>(both), 1, std::min<Eigen::Index>(20, both.rows()));
+    Spectra::SymEigsSolver<StepOperator> solver(both, 1, std::min<Eigen::Index>(20, both.rows()));
     if (mode.size() > 0) solver.init(mode.data());
     else solver.init();
     solver.compute(Spectra::SortRule::LargestAlge, 100, 1e-3);

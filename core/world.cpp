@@ -1,6 +1,7 @@
 #include "core/world.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/law_of_material.hpp"
@@ -24,14 +25,22 @@ void set_bond_constants(World& w) {
   for (std::size_t k = 0; k < b.padded; ++k) {
     const Row lo = b.row_lo[k], hi = b.row_hi[k];
     b.area[k] *= w.alpha;
-    const bool padding = k >= b.size;
     const double length = strain_length_of(b.rest_length[k], p.radius[lo] + p.radius[hi]);
-    b.stiffness[k] = padding ? 0.0 : w.law.young * b.area[k] / length;
+    b.stiffness[k] = k < b.size ? w.law.young * b.area[k] / length : 0.0;  // none for padding
     if (b.damping.empty()) continue;
     const double reduced_mass = p.mass[lo] * p.mass[hi] / (p.mass[lo] + p.mass[hi]);
     b.damping[k] = 2.0 * w.options.contact_damping * std::sqrt(reduced_mass * b.stiffness[k]);
     if (w.options.paper_form) b.damping[k] *= pi * w.alpha * std::min(p.radius[lo], p.radius[hi]) / b.rest_length[k];
   }
+}
+
+/// What the scene leaves out and the kernel still computes is never reached.
+DempackLaw law_of_scene(const Material& material, double shear_ratio, const Features& asked) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  DempackLaw law = law_of(material, shear_ratio);
+  if (!asked.plasticity) law.limit_stress.fill(never);
+  if (!asked.breakage) law.tensile_strength = law.shear_strength = never;
+  return law;
 }
 
 }  // namespace
@@ -43,7 +52,8 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.body = assembly.body;
   w.material = material;
   w.alpha = factor.alpha;
-  w.law = law_of(material, factor.shear_ratio);
+  w.features = built_features(options.features);
+  w.law = law_of_scene(material, factor.shear_ratio, options.features);
   w.particles = assembly.particles;
   w.bonds = assembly.bonds;
   w.first_top = assembly.first_top;
@@ -53,16 +63,14 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
                                      std::max(options.global_damping.translation, options.global_damping.rotation),
                                      options.threads);
   w.dt = options.safety * w.critical_dt;
-  Assembly with_masses = assembly;
-  with_masses.particles.mass = w.particles.mass;
-  w.platens = make_platens(with_masses, options.rough_platens, material.young_modulus);
+  w.platens = make_platens(assembly, w.particles, options.rough_platens, material.young_modulus);
   w.confinement = make_confinement(assembly);
   w.search = make_contact_search(assembly, options.new_contacts, 0.2 * assembly.mean_radius);
-  const bool torques = options.features.rotation;
+  const bool torques = w.features.rotation;
   w.bond_plan = plan_scatter(options.scatter, options.threads, bond_batch, w.bonds.row_lo, w.bonds.row_hi,
                              std::span(w.bonds.gid_lo).first(w.bonds.size),
                              std::span(w.bonds.gid_hi).first(w.bonds.size), w.particles.size, torques);
-  w.bond_pass = bond_pass_for(options.features, options.instruction_set);
+  w.bond_pass = bond_pass_for(w.features, options.instruction_set);
   return w;
 }
 
@@ -95,14 +103,15 @@ double stored_energy(const World& w) {
     const BondConstants<double> bond{b.rest_length[k], b.area[k], b.stiffness[k], 0.0};
     const BondHistory<double> h{{b.shear_x[k], b.shear_y[k], b.shear_z[k]}, plastic ? b.plastic_stretch[k] : 0.0,
                                 breakable ? b.damage_normal[k] : 0.0, breakable ? b.damage_shear[k] : 0.0};
-    return stored_energy(w.law, bond, h, distance, w.options.features.criterion);
+    return stored_energy(w.law, bond, h, distance, w.features.criterion);
   });
   const ContactTable& c = w.contacts;
   for (std::size_t k = 0; k < c.size; ++k) {
     const double overlap = c.free_length[k] - norm(w.particles.position[c.row_hi[k]] - w.particles.position[c.row_lo[k]]);
     if (overlap <= 0.0) continue;
-    sum += 0.5 * c.stiffness[k] * overlap * overlap +
-           0.5 * dot(c.shear_force[k], c.shear_force[k]) / (w.law.shear_ratio * c.stiffness[k]);
+    sum += 0.5 * c.stiffness[k] * overlap * overlap;
+    if (w.law.shear_ratio > 0.0)
+      sum += 0.5 * dot(c.shear_force[k], c.shear_force[k]) / (w.law.shear_ratio * c.stiffness[k]);
   }
   return sum;
 }

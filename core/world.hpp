@@ -13,7 +13,7 @@
 namespace breccia {
 
 struct WorldOptions {
-  Features features;                 ///< built (see built_features)
+  Features features;                 ///< that the scene asks for
   bool new_contacts = true;
   bool rough_platens = true;
   double contact_damping = 0.9;      ///< xi
@@ -30,6 +30,7 @@ struct World {
   Body body;
   Material material;
   DempackLaw law;
+  Features features;       ///< that run: those asked for, or the nearest superset that is built
   double alpha = 1;
   double critical_dt = 0;  ///< s, proven bound
   double dt = 0;           ///< s

@@ -34,8 +34,8 @@ std::string columns_of(const Table& table, std::size_t& bytes) {
 
 }  // namespace
 
-std::string explain(const World& w, const Features& asked) {
-  const Features& built = w.options.features;
+std::string explain(const World& w) {
+  const Features &asked = w.options.features, &built = w.features;
   std::string text = "features\n";
   text += feature_line("rotation", asked.rotation, built.rotation, "spins and torques");
   text += feature_line("contact damping", asked.contact_damping, built.contact_damping, "viscous force along each bond");
@@ -46,7 +46,7 @@ std::string explain(const World& w, const Features& asked) {
                        w.options.new_contacts ? fmt::format("searched once a pair can meet: nearest are {:.3g} mm apart", w.search.slack * 1e3)
                                               : "surfaces pass through each other");
   text += feature_line("energy ledger", false, false, "not in this version");
-  if (!(asked == built)) text += "  (on): not asked for; no leaner kernel is built for this combination\n";
+  if (!(asked == built)) text += "  (on): left out by constants (no limit, no strength, no dashpot); no leaner kernel is built for this combination\n";
   std::size_t particle_bytes = 0, bond_bytes = 0;
   const std::string particle_columns = columns_of(w.particles, particle_bytes);
   const std::string bond_columns = columns_of(w.bonds, bond_bytes);

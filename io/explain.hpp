@@ -6,7 +6,6 @@
 
 namespace breccia {
 
-/// @param asked  what the scene asks for; the world holds what is built
-std::string explain(const World& world, const Features& asked);
+std::string explain(const World& world);
 
 }  // namespace breccia

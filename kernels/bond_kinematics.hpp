@@ -40,9 +40,13 @@ inline Pair<R> relative_motion(const End<R>& lo, const End<R>& hi, double dt) {
   p.arm_ratio = p.distance / (lo.radius + hi.radius);
   Vec<R> at_contact = dv - p.rate * p.normal;
   if constexpr (rotation) {
-    const Vec<R> spins = p.arm_ratio * (lo.radius * lo.w + hi.radius * hi.w);
+    // arms times spins, as mean and difference of the ends: the same bits whichever end comes first, also where the
+    // compiler fuses a product with a sum
+    const Vec<R> both = lo.w + hi.w;
+    const R half(0.5);
+    const Vec<R> spins = (half * p.distance) * both + (half * p.arm_ratio * (lo.radius - hi.radius)) * (lo.w - hi.w);
     at_contact -= cross(spins, p.normal);
-    p.twist = R(0.5 * dt) * dot(lo.w + hi.w, p.normal);
+    p.twist = R(0.5 * dt) * dot(both, p.normal);
   }
   p.slip = step * at_contact;
   return p;

@@ -8,12 +8,14 @@
 namespace breccia {
 
 inline constexpr std::array built_feature_sets{
-    Features{.rotation = true, .contact_damping = true, .plasticity = false, .breakage = false},
-    Features{.rotation = false, .contact_damping = true, .plasticity = true, .breakage = true},
-    Features{.rotation = true, .contact_damping = true, .plasticity = false, .breakage = true},
+    Features{.plasticity = false, .breakage = false},
+    Features{.plasticity = false},
     Features{},
     Features{.criterion = Criterion::coupled},
     Features{.criterion = Criterion::mohr_coulomb},
+    Features{.rotation = false},
+    Features{.rotation = false, .criterion = Criterion::coupled},
+    Features{.rotation = false, .criterion = Criterion::mohr_coulomb},
 };
 
 }  // namespace breccia
