@@ -14,7 +14,7 @@ struct Reading {
 
 struct Recorder {
   std::size_t capacity = 2000;
-  std::size_t steps_per_row = 16;
+  std::size_t steps_per_row = 4;
   std::vector<CurveRow> rows;
   std::vector<double> mismatch;  ///< Pa, per row
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sched.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -17,9 +18,12 @@
 namespace breccia {
 namespace {
 
-std::atomic<bool> stop_asked = false;
+std::atomic<bool> stop_asked = false, results_begun = false;
 
-void ask_to_stop(int) { stop_asked = true; }
+void ask_to_stop(int) {
+  if (!results_begun) _exit(130);  // reading, packing, bonding: nothing is lost
+  stop_asked = true;
+}
 
 int available_cores() {
   cpu_set_t mask;
@@ -45,6 +49,8 @@ void refuse_ranks() {
 
 bool interrupted() { return stop_asked; }
 
+void begin_results() { results_begun = true; }
+
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,
                 const std::function<void(const CommandLine&)>& body) {
   const std::string program = "breccia-" + name;
@@ -63,7 +69,7 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   app.add_flag("--force", line.force, "replace results that are there");
   app.add_flag("--quiet", line.quiet, "errors only");
   app.add_flag("--resume", resume, "not in this version");
-  app.footer("Keys of the case:\n" + describe_keys(name));
+  app.footer(describe_keys(name));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

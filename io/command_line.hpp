@@ -19,6 +19,9 @@ struct CommandLine {
 /// True once SIGINT, SIGTERM or SIGUSR1 has come.
 bool interrupted();
 
+/// From here on a signal only makes `interrupted()` true; before, it ends the program at once.
+void begin_results();
+
 /// Reads the command line, runs `body` and turns what it throws into one line on stderr and the exit code:
 /// 0 done, 2 bad input, 3 the simulation broke, 4 files, 130 interrupted.
 /// @param about  one line for --help

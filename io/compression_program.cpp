@@ -183,6 +183,7 @@ void run_compression_program(const CommandLine& line) {
     return;
   }
 
+  begin_results();
   claim_run_folder(line.out, line.force);
   write_aside(line.out / "case.toml", c.resolved);
   if (c.frames > 0) create_results(line.out / "results.h5", c.resolved);
