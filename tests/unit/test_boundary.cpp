@@ -61,7 +61,7 @@ TEST_CASE("boundary: a servo on a spring comes to rest where the reaction is the
   Assembly heavy = a;
   for (std::size_t k = 0; k < a.particles.size; ++k)
     heavy.particles.mass[k] = 2500 * 4.0 / 3.0 * std::numbers::pi * std::pow(a.particles.radius[k], 3);
-  Platens p = make_platens(heavy, true, 28e9);
+  Platens p = make_platens(heavy, heavy.particles, true, 28e9);
   p.servo = true;
   p.pressure = 9e6;
   ParticleTable t = heavy.particles;
@@ -101,7 +101,7 @@ TEST_CASE("boundary: a packing under servo and mantle pressure comes to rest at 
 
 TEST_CASE("boundary: without a servo platens keep their speed and read reactions per section [exact]") {
   const Assembly a = packed(200);
-  Platens p = make_platens(a, true, 28e9);
+  Platens p = make_platens(a, a.particles, true, 28e9);
   ParticleTable t = a.particles;
   t.force[t.free].z = -70, t.force[a.first_top].z = 90, t.force[0].z = 1e9;
   p.velocity = {0.1, -0.2};
