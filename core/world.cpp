@@ -99,8 +99,9 @@ double stored_energy(const World& w) {
   for (std::size_t k = 0; k < c.size; ++k) {
     const double overlap = c.free_length[k] - norm(w.particles.position[c.row_hi[k]] - w.particles.position[c.row_lo[k]]);
     if (overlap <= 0.0) continue;
-    sum += 0.5 * c.stiffness[k] * overlap * overlap +
-           0.5 * dot(c.shear_force[k], c.shear_force[k]) / (w.law.shear_ratio * c.stiffness[k]);
+    sum += 0.5 * c.stiffness[k] * overlap * overlap;
+    if (w.law.shear_ratio > 0.0)
+      sum += 0.5 * dot(c.shear_force[k], c.shear_force[k]) / (w.law.shear_ratio * c.stiffness[k]);
   }
   return sum;
 }

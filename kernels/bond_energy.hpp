@@ -22,8 +22,9 @@ inline double stored_energy(const DempackLaw& law, const BondConstants<double>& 
   }
   const double g_normal = !pulled ? 1.0 : broken ? 0.0 : softening(h.damage_normal, delta_n);
   const double g_shear = broken ? 1.0 : softening(h.damage_shear, delta_s);
-  return 0.5 * bond.stiffness * g_normal * elastic * elastic +
-         0.5 * g_shear * shear * shear / (law.shear_ratio * bond.stiffness);
+  const double normal_part = 0.5 * bond.stiffness * g_normal * elastic * elastic;
+  if (!(shear > 0.0)) return normal_part;  // also where k_s = 0
+  return normal_part + 0.5 * g_shear * shear * shear / (law.shear_ratio * bond.stiffness);
 }
 
 }  // namespace breccia
