@@ -59,8 +59,9 @@ inline Vec<R> carry(const Vec<R>& f, const Pair<R>& p) {
   const R along = dot(f, p.normal) / (R(1.0) + dot(p.normal_before, p.normal));
   Vec<R> turned = f - along * (p.normal_before + p.normal);
   if constexpr (rotation) {
-    // tan(twist/2) = twist/2 to third order: cosine and sine below are of one angle, so the length stays
-    const R t = R(0.5) * p.twist;
+    // tan(twist/2) to fifth order; cosine and sine below are of one angle, so the length stays
+    const R half = R(0.5) * p.twist;
+    const R t = half + R(1.0 / 3.0) * half * half * half;
     const R s = R(1.0) / (R(1.0) + t * t);
     turned = ((R(1.0) - t * t) * s) * turned + (R(2.0) * t * s) * cross(p.normal, turned);
   }

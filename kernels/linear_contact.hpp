@@ -20,7 +20,8 @@ inline Vec3 linear_contact_force(const ContactConstants& contact, double overlap
   const double limit = contact.friction * spring;
   const double size = norm(shear);
   if (size > limit) shear = (limit / size) * shear;
-  const double total = larger(0.0, spring - contact.damping * pair.rate);
+  // surfaces that just meet (overlap 0, as unbonded overlaps do at the start) are not yet damped
+  const double total = overlap > 0.0 ? larger(0.0, spring - contact.damping * pair.rate) : 0.0;
   return shear - total * pair.normal;
 }
 

@@ -623,6 +623,11 @@ TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2
     const double want = 0.5 * S * y_l + 0.5 * (S + R) * (y_r - y_l) + R * (y_end - y_r) - 0.5 * R * R / b.k_s;
     CHECK(std::abs(dissipated(path) - want) < off_s(steps, y_end) + 1e-10 * want);
   }
+  // no shear stiffness (a matched material of nu = 0.25): finite
+  DempackLaw slippery = law;
+  slippery.shear_ratio = 0;
+  CHECK(stored_energy(slippery, constants, {}, b.d0 + 0.5 * u_l, Criterion::uncoupled) ==
+        doctest::Approx(0.125 * b.k_n * u_l * u_l).epsilon(1e-9));
   // elastic in all directions: nothing is lost
   CHECK(std::abs(dissipated(along({{0.9 * u_l, 0.5 * s_l, 0.5 * s_l}, {-u_l, -0.3 * s_l}}, 40))) < 1e-12 * G_s);
 }

@@ -1,0 +1,46 @@
+// Another code's bond in tension, as its own regression file has it.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/scene.hpp"
+
+using namespace breccia;
+
+TEST_CASE("kratos: two spheres pulled apart, softening to failure [Kratos DEM benchmark 22, 1e-5 of the strength]") {
+  const std::filesystem::path file =
+      std::filesystem::path(BRECCIA_SOURCE_DIR "/../shared/reference") / "reference_graph_benchmark22.dat";
+  if (!std::filesystem::exists(file)) {
+    MESSAGE("skipped: reference_graph_benchmark22.dat is not here");
+    return;
+  }
+  reference::Parameters p;
+  p.E = 1e9;
+  p.sigma_t = 1e6;
+  p.tau_f = 0.5e6;
+  p.delta_n = 0.8;
+  p.plasticity = p.contact_damping = false;
+  p.xi = 0;
+  Assembly a = scene::free_body({{140, 1, {0, 0, -1}}, {141, 1, {0, 0, 1}}}, p.beta, scene::options(p).features);
+  a.particles.free = 0, a.first_top = 1;  // both held, the upper one is pulled
+  World w = make_world(a, scene::material_of(p), scene::factor(p), scene::options(p));
+  w.dt = 1e-5;
+  w.platens.velocity = {0, 0.1};
+  w.particles.velocity[1].z = 0.1;
+  std::ifstream in(file);
+  double time = 0, along = 0, across = 0, worst = 0, peak = 0, peak_time = 0;
+  int rows = 0;
+  while (in >> time >> along >> across) {
+    advance(w);
+    const double force = w.platens.stress[1] * w.platens.section;  // on the moving sphere: back towards the other
+    worst = std::max(worst, std::abs(force - along) / 3.14159e6);
+    if (-force > peak) peak = -force, peak_time = time;
+    ++rows;
+  }
+  CHECK(rows == 5000);
+  CHECK(worst < 1e-5);
+  CHECK(peak == doctest::Approx(3.14159e6).epsilon(1e-5));
+  CHECK(peak_time == doctest::Approx(0.02).epsilon(1e-3));
+  CHECK(count_broken(w).tension == 1);
+}
