@@ -1,5 +1,7 @@
 #include "core/boundary.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <cmath>
 #include <numbers>
 
@@ -55,23 +57,32 @@ Confinement make_confinement(const Assembly& a) {
 
 void press_skin(Confinement& c, ParticleTable& particles) {
   if (c.pressure == 0.0) return;
-  // forces are horizontal and meet the axis: what is left to remove is a net force and the moments about x and y,
-  // by the smallest horizontal correction a + b z
-  double n = 0.0, z1 = 0.0, z2 = 0.0;
-  Vec3 net, moment;
+  // radial forces leave a net force and moments about x and y: the smallest horizontal correction a + b z + c (-y, x)
+  // that removes them and makes no moment about z
+  double n = 0.0, x1 = 0.0, y1 = 0.0, z1 = 0.0, z2 = 0.0, xz = 0.0, yz = 0.0, r2 = 0.0;
+  Vec3 net, tilt;
   for (std::size_t k = 0; k < c.rows.size(); ++k) {
     const Vec3& x = particles.position[c.rows[k]];
-    const double inward = -c.pressure * c.weight[k] / std::hypot(x.x, x.y);
+    const double radial = x.x * x.x + x.y * x.y;
+    const double inward = -c.pressure * c.weight[k] / std::sqrt(radial);
     c.force[k] = {inward * x.x, inward * x.y, 0.0};
     net += c.force[k];
-    moment += x.z * c.force[k];
-    n += 1.0, z1 += x.z, z2 += x.z * x.z;
+    tilt += x.z * c.force[k];
+    n += 1.0, x1 += x.x, y1 += x.y, z1 += x.z, z2 += x.z * x.z, xz += x.x * x.z, yz += x.y * x.z, r2 += radial;
   }
-  const double determinant = n * z2 - z1 * z1;
-  const Vec3 slope = (1.0 / determinant) * (n * moment - z1 * net);
-  const Vec3 offset = (1.0 / determinant) * (z2 * net - z1 * moment);
+  Eigen::Matrix<double, 5, 5> gram;
+  // clang-format off
+  gram <<   n, 0.0,  z1, 0.0, -y1,
+          0.0,   n, 0.0,  z1,  x1,
+           z1, 0.0,  z2, 0.0, -yz,
+          0.0,  z1, 0.0,  z2,  xz,
+          -y1,  x1, -yz,  xz,  r2;
+  // clang-format on
+  const Eigen::Vector<double, 5> left{net.x, net.y, tilt.x, tilt.y, 0.0};
+  const Eigen::Vector<double, 5> by = gram.ldlt().solve(left);
   for (std::size_t k = 0; k < c.rows.size(); ++k) {
-    c.force[k] -= offset + particles.position[c.rows[k]].z * slope;
+    const Vec3& x = particles.position[c.rows[k]];
+    c.force[k] -= Vec3{by[0] + by[2] * x.z - by[4] * x.y, by[1] + by[3] * x.z + by[4] * x.x, 0.0};
     particles.force[c.rows[k]] += c.force[k];
   }
 }

@@ -50,21 +50,18 @@ ContactSearch make_contact_search(const Assembly& a, bool enabled, double skin) 
   if (!enabled) return s;
 
   // until the nearest unbonded pair can have met, there is nothing to search for
+  const auto& r = a.particles.radius;
   s.position = a.particles.position;
   s.slack = s.skin;
-  for (const auto& [i, j] : near_pairs(s.position, a.particles.radius, 0.0, s.skin, 1)) {
-    const double distance = norm(s.position[j] - s.position[i]);
-    s.reach = std::max(s.reach, distance);
-    if (!are_bonded(s, i, j))
-      s.slack = std::min(s.slack, distance - a.particles.radius[i] - a.particles.radius[j]);
-  }
+  s.reach = 2.0 * *std::max_element(r.begin(), r.end()) + s.skin;
+  for (const auto& [i, j] : near_pairs(s.position, r, 0.0, s.skin, 1))
+    if (!are_bonded(s, i, j)) s.slack = std::min(s.slack, norm(s.position[j] - s.position[i]) - r[i] - r[j]);
   return s;
 }
 
 bool search_is_due(ContactSearch& s, const ParticleTable& p, std::uint64_t step, double dt, int threads) {
   if (!s.enabled || step < s.next_check) return false;
   s.next_check = step + static_cast<std::uint64_t>(s.check_every);
-  if (s.slack <= 0.0) return true;  // pairs that overlap unbonded are in contact from the start
 
   double top = 0.0, square = 0.0;  // even stretch along the axis: least squares of u_z over z
   for (std::size_t row = 0; row < p.size; ++row) {
@@ -78,9 +75,14 @@ bool search_is_due(ContactSearch& s, const ParticleTable& p, std::uint64_t step,
     u.z -= stretch * s.position[row].z;
     return Moved{dot(u, u), dot(p.velocity[row], p.velocity[row])};
   });
+  const double used = 2.0 * std::sqrt(most.distance2) + std::abs(stretch) * s.reach;
   // what they may still move before the next check counts as used
-  const double ahead = 1.5 * s.check_every * dt * std::sqrt(most.speed2);
-  return 2.0 * (std::sqrt(most.distance2) + ahead) + std::abs(stretch) * s.reach > s.slack;
+  const double per_step = 2.0 * 1.5 * dt * std::sqrt(most.speed2), ahead = s.check_every * per_step;
+  // slack <= 0: pairs that overlap unbonded are in contact from the start
+  const bool due = s.slack <= 0.0 || used + ahead > s.slack;
+  // particles so fast that a new list does not last until then are looked at sooner
+  if (due && ahead > s.skin) s.next_check = step + std::max<std::uint64_t>(1, static_cast<std::uint64_t>(s.skin / per_step));
+  return due;
 }
 
 void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTable& p, const ContactMaterial& material,
@@ -108,13 +110,11 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
 
   contacts = ContactTable{};
   contacts.resize(pairs.size(), features);
-  s.reach = 0.0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [lo, hi] = p.gid[pairs[k].a] < p.gid[pairs[k].b] ? std::pair(pairs[k].a, pairs[k].b)
                                                                 : std::pair(pairs[k].b, pairs[k].a);
     const double touch = p.radius[lo] + p.radius[hi], smaller = std::min(p.radius[lo], p.radius[hi]);
     const double distance = norm(p.position[hi] - p.position[lo]);
-    s.reach = std::max(s.reach, distance);
     contacts.gid_lo[k] = p.gid[lo];
     contacts.gid_hi[k] = p.gid[hi];
     contacts.row_lo[k] = lo;

@@ -13,7 +13,7 @@ struct Reading {
 };
 
 struct Recorder {
-  std::size_t capacity = 2000;
+  std::size_t capacity = 1100;
   std::size_t steps_per_row = 4;
   std::vector<CurveRow> rows;
   std::vector<double> mismatch;  ///< Pa, per row

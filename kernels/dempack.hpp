@@ -63,7 +63,7 @@ inline R strain_length(const DempackLaw& law, const BondConstants<R>& bond) {
   return R(law.young) * bond.area / bond.stiffness;
 }
 
-/// A bond of the padding has length 0/0; `larger` with the NaN in front makes its delta 0, and its forces stay zero.
+/// A bond without stiffness and area has length 0/0; with the NaN in front, `larger` makes its delta 0.
 template <class R>
 inline R delta_normal(const DempackLaw& law, const R& length) {
   return larger(R(law.softening_normal) + R(law.softening_normal_length) / length, R(0.0));
@@ -124,7 +124,7 @@ inline BondForce<R> breakable_force(const DempackLaw& law, const BondConstants<R
   // --- along the bond, and with it the shear of a pulled bond where the two are coupled
   if constexpr (criterion == Criterion::coupled) {
     // a + b = 1 is the elastic limit; one damage D for both, its delta weighed by the two shares
-    const auto intact_pull = normal > zero && !broken;  // a force, not a stretch: padding has none
+    const auto intact_pull = pulled && !broken;
     const R a = normal / limit_tension;
     const R b = square_root(dot(h.shear, h.shear)) / limit_cohesion;
     if (any(intact_pull) && (damaged || any(intact_pull && a + b > one))) {

@@ -1,0 +1,200 @@
+// Contacts between surfaces that were never bonded: found before they can overlap, kept while they last, and never
+// made of what is bonded.
+#include <doctest/doctest.h>
+
+#include <map>
+#include <random>
+
+#include "tests/scene.hpp"
+
+using namespace breccia;
+namespace ref = breccia::reference;
+using scene::Ball;
+
+namespace {
+
+using Ends = std::pair<Row, Row>;
+
+std::set<Ends> candidates(const World& w) {
+  std::set<Ends> all;
+  for (std::size_t k = 0; k < w.contacts.size; ++k) all.insert(std::minmax(w.contacts.row_lo[k], w.contacts.row_hi[k]));
+  return all;
+}
+std::set<Ends> bonded(const World& w) {
+  std::set<Ends> all;
+  for (std::size_t k = 0; k < w.bonds.size; ++k) all.insert(std::minmax(w.bonds.row_lo[k], w.bonds.row_hi[k]));
+  return all;
+}
+std::set<Ends> overlapping(const World& w, const std::vector<Vec3>& x) {
+  std::set<Ends> all;
+  for (Row i = 0; i < x.size(); ++i)
+    for (Row j = i + 1; j < x.size(); ++j)
+      if (norm(x[j] - x[i]) < w.particles.radius[i] + w.particles.radius[j]) all.insert({i, j});
+  return all;
+}
+
+World world_of(const std::vector<Ball>& balls, const ref::Parameters& p) {
+  return make_world(scene::free_body(balls, p.beta, scene::options(p).features), scene::material_of(p), scene::factor(p),
+                    scene::options(p));
+}
+
+struct Watch {
+  int missed = 0, met = 0, bonded_contacts = 0;
+};
+
+/// Advances and compares what overlaps when forces are computed with what is on the list then.
+Watch watch(World& w, int steps) {
+  Watch seen;
+  const std::set<Ends> bonds = bonded(w);
+  for (int k = 0; k < steps; ++k) {
+    const std::vector<Vec3> x = w.particles.position;
+    advance(w);
+    const std::set<Ends> list = candidates(w);
+    for (const Ends& pair : overlapping(w, x)) {
+      if (bonds.contains(pair)) continue;
+      ++seen.met;
+      seen.missed += !list.contains(pair);
+    }
+    for (const Ends& pair : list) seen.bonded_contacts += bonds.contains(pair);
+  }
+  return seen;
+}
+
+/// Two spheres bonded far away: a world needs a bond.
+void add_bonded_pair(std::vector<Ball>& balls) {
+  const Gid id = balls.size() + 1;
+  balls.push_back({id, 0.01, {5, 5, 5}, 99});
+  balls.push_back({id + 1, 0.01, {5.02, 5, 5}, 99});
+}
+
+ref::Parameters soft() {
+  ref::Parameters p;
+  p.E = 1e7;
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("contacts: a gas of 80 unequal spheres: every overlap is on the list when its force is due [all steps]") {
+  const ref::Parameters p = soft();
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> in(-1, 1), unit(0, 1);
+  std::vector<Ball> balls;
+  while (balls.size() < 80) {
+    const Ball b{balls.size() + 1, 0.01 + 0.03 * unit(random), 0.25 * Vec3{in(random), in(random), in(random)}, 0,
+                 5.0 * Vec3{in(random), in(random), in(random)}};
+    if (std::ranges::all_of(balls, [&](const Ball& o) { return norm(o.x - b.x) > o.radius + b.radius; })) balls.push_back(b);
+  }
+  for (Ball& b : balls) b.v -= 8.0 * b.x;
+  add_bonded_pair(balls);
+  World w = world_of(balls, p);
+  w.dt *= 0.2;
+  const Watch seen = watch(w, 4000);
+  CHECK(seen.met > 500);
+  CHECK(seen.missed == 0);
+  CHECK(w.search.rebuilds > 3);
+  CHECK(w.search.rebuilds < 2000);
+}
+
+TEST_CASE("contacts: spheres apart by more than the skin that are pressed together evenly are found in time [all steps]") {
+  const ref::Parameters p = soft();
+  std::vector<Ball> balls;
+  for (int k = 0; k < 22; ++k) {
+    const double z = 0.022 * (k - 10.5);  // gaps of 2 mm; the skin is 0.2 mean radii, some 2 mm
+    balls.push_back({Gid(k + 1), 0.0098, {0, 0, z}, 0, {0, 0, -0.2 * z}});
+  }
+  balls.push_back({23, 0.002, {0, 0.5, 0}, 99});  // the only near pair at the start
+  balls.push_back({24, 0.002, {0, 0.504, 0}, 99});
+  World w = world_of(balls, p);
+  REQUIRE(0.022 - 2 * 0.0098 > w.search.skin);
+  const Watch seen = watch(w, int(0.9 / w.dt));
+  CHECK(seen.met > 100);
+  CHECK(seen.missed == 0);
+}
+
+TEST_CASE("contacts: a specimen crushed between platens: nothing is missed, bonded pairs never become contacts [all steps]") {
+  ref::Parameters p;
+  p.alpha = 0.8;
+  const Assembly a = assemble(scene::small_packing(120), scene::small_cylinder(), {}, Features{}, 1);
+  World w = make_world(a, scene::material_of(p), scene::factor(p), scene::options(p));
+  w.platens.velocity = {12, -12};
+  const Watch seen = watch(w, 800);
+  CHECK(count_broken(w).tension + count_broken(w).shear > 20);
+  CHECK(seen.met > 100);
+  CHECK(seen.missed == 0);
+  CHECK(seen.bonded_contacts == 0);
+}
+
+TEST_CASE("contacts: pairs that overlap unbonded lie still, and are ordinary contacts once parted [MODEL 2, rel 1e-12]") {
+  ref::Parameters p;
+  p.contact_damping = false;
+  p.xi = 0;
+  std::vector<Ball> balls{{1, 0.01, {0, 0, 0}, 0}, {2, 0.01, {0.017, 0, 0}, 0}, {3, 0.01, {0.017, 0.012, 0}, 1}};
+  add_bonded_pair(balls);
+  World w = world_of(balls, p);
+  for (int k = 0; k < 300; ++k) advance(w);
+  for (std::size_t k = 0; k < w.particles.size; ++k) CHECK(w.particles.velocity[k] == Vec3{});
+  CHECK(w.contacts.size == 3);
+
+  const double k_n = p.E * std::numbers::pi * 1e-4 / 0.02;
+  const auto force_at = [&](double x) {  // on the first sphere along x, the others out of the way
+    w.particles.position[0] = {0, -1, 0};
+    w.particles.position[1] = {x, -1, 0};
+    w.particles.position[2] = {0, 1, 0};
+    std::fill(w.particles.velocity.begin(), w.particles.velocity.end(), Vec3{});
+    advance(w);
+    return w.particles.velocity[0].x * w.particles.mass[0] / w.dt;
+  };
+  CHECK(force_at(0.0165) == doctest::Approx(-k_n * 0.0005).epsilon(1e-9));  // pressed from the initial distance
+  CHECK(force_at(0.0180) == 0.0);                                           // opened, not yet parted
+  CHECK(force_at(0.0165) == doctest::Approx(-k_n * 0.0005).epsilon(1e-9));
+  CHECK(force_at(0.0201) == 0.0);  // parted
+  CHECK(force_at(0.0195) == doctest::Approx(-k_n * 0.0005).epsilon(1e-9));
+}
+
+TEST_CASE("contacts: a new list keeps the friction and free length of pairs in contact [equal bits]") {
+  const ref::Parameters p = soft();
+  std::vector<Ball> balls{{1, 0.01, {0, 0, 0}, 0, {}, {0, 0, 20}},
+                          {2, 0.01, {0.0202, 0, 0}, 0, {-0.2, 0, 0}},
+                          {3, 0.012, {0, 0.0222, 0}, 0, {0, -0.2, 0}},
+                          {4, 0.01, {0.05, 0, 0}, 0}};
+  add_bonded_pair(balls);
+  World w = world_of(balls, p);
+  const auto rubbing = [&] {
+    return std::ranges::count_if(w.contacts.shear_force, [](const Vec3& f) { return norm(f) > 0; });
+  };
+  for (int k = 0; k < 40 && rubbing() < 2; ++k) advance(w);
+  REQUIRE(rubbing() == 2);
+  std::map<std::pair<Gid, Gid>, std::pair<double, Vec3>> before;
+  for (std::size_t k = 0; k < w.contacts.size; ++k) {
+    before[{w.contacts.gid_lo[k], w.contacts.gid_hi[k]}] = {w.contacts.free_length[k], w.contacts.shear_force[k]};
+  }
+  w.particles.position[3] = {0.0305, 0, 0};  // a new neighbour, so that rows shift
+  renew_contacts(w.search, w.contacts, w.particles, {w.material.young_modulus, w.alpha, w.options.contact_damping},
+                 w.options.features, 1);
+  CHECK(w.contacts.size > before.size());
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < w.contacts.size; ++k) {
+    const auto old = before.find({w.contacts.gid_lo[k], w.contacts.gid_hi[k]});
+    if (old == before.end()) {
+      CHECK(w.contacts.shear_force[k] == Vec3{});
+      CHECK(w.contacts.free_length[k] == w.particles.radius[w.contacts.row_lo[k]] + w.particles.radius[w.contacts.row_hi[k]]);
+      continue;
+    }
+    ++kept;
+    CHECK(w.contacts.free_length[k] == old->second.first);
+    CHECK(w.contacts.shear_force[k] == old->second.second);
+  }
+  CHECK(kept == before.size());
+}
+
+TEST_CASE("contacts: switched off, nothing is ever searched for [exact]") {
+  ref::Parameters p = soft();
+  p.unbonded_contacts = false;
+  std::vector<Ball> balls{{1, 0.01, {0, 0, 0}, 0, {1, 0, 0}}, {2, 0.01, {0.025, 0, 0}, 0}};
+  add_bonded_pair(balls);
+  World w = world_of(balls, p);
+  for (int k = 0; k < 400; ++k) advance(w);
+  CHECK(w.search.rebuilds == 0);
+  CHECK(w.particles.velocity[0] == Vec3{1, 0, 0});
+}
