@@ -176,7 +176,7 @@ TEST_CASE("conservation: a free bonded pair vibrates at sqrt(2k/m)/(2 pi), its e
   CHECK(most == doctest::Approx(0.5 * w.bonds.stiffness[0] * 4 * A * A * (1 - x * x)).epsilon(1e-6));
 }
 
-TEST_CASE("conservation: standing waves of a chain have omega = 2 sqrt(k/m) sin(q pi/(2 n)); c = sqrt(1.5 E/rho) [1e-6 of the amplitude]") {
+TEST_CASE("conservation: standing waves of a chain have omega = 2 sqrt(k/m) sin(q pi/(2 n)), c = sqrt(1.5 E/rho) [1e-6 of the amplitude]") {
   const ref::Parameters p = elastic_chain();
   constexpr std::size_t n = 50;
   for (const int q : {1, 7, 40}) {

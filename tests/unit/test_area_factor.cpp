@@ -78,7 +78,7 @@ TEST_CASE("area factor: porosity gives 40 P/N_c, a number is taken as it is [MOD
   CHECK(find_area_factor(a, request(AlphaRule::number), 1).alpha == 0.79);
 }
 
-TEST_CASE("area factor: the probe of a column of spheres is E A/(section) of its bonds; threads give the same bits [rel 1e-7]") {
+TEST_CASE("area factor: the probe of a column of spheres is E A/(section) of its bonds, threads give the same bits [rel 1e-7]") {
   // a straight column: all bonds equal, so E_probe = k d0/section, and no lateral strain
   std::vector<scene::Ball> balls;
   for (int k = 0; k < 21; ++k) balls.push_back({Gid(k + 1), 0.0025, {1e-4, 0, -0.05 + 0.005 * k}});

@@ -114,7 +114,7 @@ TEST_CASE("boundary: without a servo platens keep their speed and read reactions
   CHECK(p.travel[1] == doctest::Approx(2e-4).epsilon(1e-14));
 }
 
-TEST_CASE("boundary: rough platens fix lateral motion, smooth ones leave it free; spins are free; global damping [MODEL 7, 10]") {
+TEST_CASE("boundary: rough platens fix lateral motion, smooth ones leave it free, spins are free, global damping [MODEL 7, 10]") {
   for (const bool rough : {true, false}) {
     std::vector<Vec3> x(1), v{{3, 0, 7}}, w{{0, 0, 2}}, f{{0, 5, 100}}, t{{0, 0, 4}};
     const std::vector<double> m{2}, r{0.5};

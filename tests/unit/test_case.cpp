@@ -268,7 +268,7 @@ TEST_CASE("case: a preset is also found through BRECCIA_DATA") {
        "c.toml:6: material.preset: no preset \"mine\"; valid: \"bad\", \"cement\", \"concrete\", \"shale\"");
 }
 
-TEST_CASE("case: --set takes TOML, or a bare word; the last one wins; it replaces what it excludes") {
+TEST_CASE("case: --set takes TOML, or a bare word, the last one wins, it replaces what it excludes") {
   const std::vector<std::string> sets{"test.stop_strain=0.03",      "test.confinement=[\"1 MPa\", 2e6]",
                                       "run.scatter=gather",         "test.platen_speed=0.05 m/s",
                                       "test.platen_speed=0.02 m/s", "bonds.coordination=9"};
@@ -568,7 +568,7 @@ TEST_CASE("case: the specimen is named, once, with its size") {
        "c.toml:5: specimen.pack.sizes.openings: belongs to kind = \"sieves\"");
 }
 
-TEST_CASE("case: a material is whole, or the missing key is named; features that are off ask for less") {
+TEST_CASE("case: a material is whole, or the missing key is named, features that are off ask for less") {
   says(complaint(pack), "c.toml: material.density: missing; give it, or a material.preset");
   const std::string elastic =
       pack + "[material]\ndensity = 1\nyoung_modulus = 1e9\npoisson_ratio = 0.2\nfriction_dynamic = 0\n";

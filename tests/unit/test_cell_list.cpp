@@ -75,7 +75,7 @@ TEST_CASE("cell list: fragments that have flown far, flat and thin clouds, all i
   hold(cloud(40, {0, 0, 0}, 0.01, 0.03, 5), {{0, 0}}, 40 * 39 / 2);
 }
 
-TEST_CASE("cell list: few and no spheres; spheres just inside and just outside the reach [exact]") {
+TEST_CASE("cell list: few and no spheres, spheres just inside and just outside the reach [exact]") {
   CHECK(near_pairs({}, {}, 0.1, 0, 2).empty());
   hold(cloud(1, {1, 1, 1}, 0.1, 0.2, 6), {{0.1, 0}}, 0);
   Cloud c;

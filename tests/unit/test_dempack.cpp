@@ -447,7 +447,7 @@ TEST_CASE("dempack/mohr-coulomb: tension lowers the shear strength, pressure rai
   hold<mohr_coulomb>(p, claims);
 }
 
-TEST_CASE("dempack/toggles: no breakage and no plasticity is a spring; either alone is kept [MODEL 3, 1e-12]") {
+TEST_CASE("dempack/toggles: no breakage and no plasticity is a spring, either alone is kept [MODEL 3, 1e-12]") {
   const Parameters p = tough();
   std::vector<Claim> spring, plastic;
   for (const Bond& b : several_bonds(p)) {

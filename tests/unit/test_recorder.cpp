@@ -49,7 +49,7 @@ TEST_CASE("recorder: a row is the mean of its steps, counts and energies are tho
   CHECK(record(2000, 16, 15).rows.empty());
 }
 
-TEST_CASE("recorder: merged rows are the means of twice the steps; there are half to all of the capacity [exact means]") {
+TEST_CASE("recorder: merged rows are the means of twice the steps, there are half to all of the capacity [exact means]") {
   const Recorder r = record(40, 4, 4 * 40 * 2 + 3 * 16);  // merged twice, then 3 rows of 16
   CHECK(r.steps_per_row == 16);
   REQUIRE(r.rows.size() == 20 + 3);

@@ -285,7 +285,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "reference/shear: friction in two directions is a radial return; open bonds have none [section 4, rel "
+    "reference/shear: friction in two directions is a radial return, open bonds have none [section 4, rel "
     "1e-12]") {
   const Parameters p;
   Bond b = unit_bond(p);

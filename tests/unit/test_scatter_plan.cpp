@@ -140,7 +140,7 @@ TEST_CASE("scatter: gather gives the same bits for any number of ranges, private
   }
 }
 
-TEST_CASE("scatter: ranges cover all bonds once, at multiples of the batch; own rows are touched by one range [exact]") {
+TEST_CASE("scatter: ranges cover all bonds once, at multiples of the batch, own rows are touched by one range [exact]") {
   Network n = network(700, 4096 + 8, spinning);
   for (const int ranges : {1, 2, 3, 5, 8}) {
     const ScatterPlan plan = plan_scatter(ScatterKind::private_sums, ranges, 8, n.lo, n.hi, n.gid_lo, n.gid_hi, 700, true);

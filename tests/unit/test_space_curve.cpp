@@ -36,7 +36,7 @@ TEST_CASE("space curve: through an 8 x 8 x 8 grid it visits each cell once and s
   CHECK(neighbours == 511);
 }
 
-TEST_CASE("space curve: neighbours in order are neighbours in space: mean step 1.6 spacings at most; keys are a permutation") {
+TEST_CASE("space curve: neighbours in order are neighbours in space: mean step 1.6 spacings at most, keys are a permutation") {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> in(-1, 1);
   std::vector<Vec3> points;

@@ -6,7 +6,7 @@
 
 using namespace breccia;
 
-TEST_CASE("state hash: 16 hex digits; one bit of any identity, history or state column changes it, scratch and reference do not") {
+TEST_CASE("state hash: 16 hex digits, one bit of any identity, history or state column changes it, scratch and reference do not") {
   const Assembly a = assemble(scene::small_packing(150), scene::small_cylinder(), {}, Features{}, 1);
   const std::string before = state_hash(a.particles, a.bonds);
   CHECK(before.size() == 16);

@@ -65,7 +65,7 @@ TEST_CASE("strength: peak, moduli, Poisson's ratio of a curve of two slopes [DES
   CHECK(f.platen_mismatch == doctest::Approx(1e5 / 40e6).epsilon(1e-3));
 }
 
-TEST_CASE("strength: a curve that has not come down has no peak reached; one that fell by 1 % has [exact]") {
+TEST_CASE("strength: a curve that has not come down has no peak reached, one that fell by 1 % has [exact]") {
   for (const auto& [last, reached] : {std::pair{0.0015, false}, {0.00202, false}, {0.00206, true}}) {
     const auto rows = curve(last);
     CHECK(read_curve(rows, std::vector<double>(rows.size(), 0.0)).peak_reached == reached);

@@ -113,7 +113,7 @@ TEST_CASE("time step: rolling pair, k_s on slip and both rotations [eigenvalue i
   CHECK(proven(w) <= 1 / std::sqrt(lambda) * (1 + 1e-12));
 }
 
-TEST_CASE("time step: 200 spheres are bounded at 0.97 of the limit and blow up at 1.1, damped or not; proven bound below [MODEL 8]") {
+TEST_CASE("time step: 200 spheres are bounded at 0.97 of the limit and blow up at 1.1, damped or not, proven bound below [MODEL 8]") {
   for (const auto& [xi, global] : {std::pair{0.0, 0.0}, {0.9, 0.0}, {0.9, 0.1}}) {
     const auto [w, limit] = packing(xi, global);
     INFO("xi ", xi, ", global ", global, ", limit ", limit, ", proven ", proven(w, global));
