@@ -27,7 +27,8 @@ double porosity_alpha(const Assembly& a) {
 }
 
 /// k_s/k_n at which the probe shows the Poisson ratio asked for: secant steps from the affine value.
-double matched_ratio(const Assembly& a, const AreaFactorRequest& r, int threads, ElasticResponse& answer, int& probes) {
+double matched_ratio(const Assembly& a, const AreaFactorRequest& r, int threads, ElasticResponse& answer,
+                     int& probes) {
   const auto miss = [&](double kappa) {
     answer = probe(a, r.young_modulus, kappa, r.rough_platens, threads);
     ++probes;
@@ -36,7 +37,8 @@ double matched_ratio(const Assembly& a, const AreaFactorRequest& r, int threads,
   const double tolerance = 0.002 * std::max(r.poisson_ratio, 0.05);
   double k0 = matched_shear_ratio(r.poisson_ratio), f0 = miss(k0);
   if (std::abs(f0) < tolerance) return k0;
-  double k1 = std::max(0.0, k0 + 1.2 * f0 * 5.0 / 2.0), f1 = miss(k1);  // d nu/d kappa of the affine form is near -5/16 .. -1/4
+  double k1 = std::max(0.0, k0 + 1.2 * f0 * 5.0 / 2.0),
+         f1 = miss(k1);  // d nu/d kappa of the affine form is near -5/16 .. -1/4
   for (int turn = 0; turn < 12 && std::abs(f1) >= tolerance; ++turn) {
     const double k2 = std::max(0.0, k1 - f1 * (k1 - k0) / (f1 - f0));
     k0 = k1, f0 = f1;
@@ -44,8 +46,11 @@ double matched_ratio(const Assembly& a, const AreaFactorRequest& r, int threads,
     if (k1 == k0) break;
   }
   if (std::abs(f1) >= tolerance)
-    fail<BadInput>("bonds.elasticity: \"matched\" finds no k_s/k_n that gives this specimen a Poisson ratio of {} (reached {:.4f}); "
-                   "ask for one nearer to that, or use \"paper\"", r.poisson_ratio, answer.poisson_ratio);
+    fail<BadInput>(
+        "bonds.elasticity: \"matched\" finds no k_s/k_n that gives this specimen a Poisson ratio of {} "
+        "(reached {:.4f}); "
+        "ask for one nearer to that, or use \"paper\"",
+        r.poisson_ratio, answer.poisson_ratio);
   return k1;
 }
 
@@ -57,10 +62,17 @@ AreaFactor find_area_factor(const Assembly& a, const AreaFactorRequest& r, int t
   const bool matched = r.elasticity == Elasticity::matched;
   f.shear_ratio = matched ? matched_shear_ratio(r.poisson_ratio) : paper_shear_ratio(r.poisson_ratio);
   switch (r.rule) {
-    case AlphaRule::number: f.alpha = r.number; return f;
-    case AlphaRule::porosity: f.alpha = porosity_alpha(a); return f;
-    case AlphaRule::affine: f.alpha = affine_alpha(f.fabric, f.shear_ratio); return f;
-    case AlphaRule::automatic: break;
+    case AlphaRule::number:
+      f.alpha = r.number;
+      return f;
+    case AlphaRule::porosity:
+      f.alpha = porosity_alpha(a);
+      return f;
+    case AlphaRule::affine:
+      f.alpha = affine_alpha(f.fabric, f.shear_ratio);
+      return f;
+    case AlphaRule::automatic:
+      break;
   }
   ElasticResponse answer;
   if (matched) {

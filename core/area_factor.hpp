@@ -16,10 +16,10 @@ struct AreaFactorRequest {
 
 struct AreaFactor {
   double alpha = 1.0;
-  double shear_ratio = 0;     ///< k_s/k_n
-  double fabric = 0;          ///< T = sum of pi r_c^2 d0/(3 V): 1 for areas that tile space
-  double young_modulus = 0;   ///< Pa, of the specimen with this alpha, by the probe; 0 where none was made
-  double poisson_ratio = 0;   ///< by the probe
+  double shear_ratio = 0;    ///< k_s/k_n
+  double fabric = 0;         ///< T = sum of pi r_c^2 d0/(3 V): 1 for areas that tile space
+  double young_modulus = 0;  ///< Pa, of the specimen with this alpha, by the probe; 0 where none was made
+  double poisson_ratio = 0;  ///< by the probe
   int probes = 0;
 };
 

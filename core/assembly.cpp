@@ -25,7 +25,8 @@ std::vector<std::size_t> order_of(const Specimen& specimen, double lower, double
   std::vector<std::size_t> order(centres.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::tuple(part(a), keys[a], specimen.spheres[a].id) < std::tuple(part(b), keys[b], specimen.spheres[b].id);
+    return std::tuple(part(a), keys[a], specimen.spheres[a].id) <
+           std::tuple(part(b), keys[b], specimen.spheres[b].id);
   });
   return order;
 }
@@ -36,7 +37,8 @@ struct Link {
 };
 
 /// Both ends in one cohesive group, lower id first.
-std::vector<Link> links_within(const ParticleTable& p, const std::vector<int>& group, double range, int threads) {
+std::vector<Link> links_within(const ParticleTable& p, const std::vector<int>& group, double range,
+                               int threads) {
   std::vector<Link> links;
   for (const auto& [a, b] : near_pairs(p.position, p.radius, range, 0.0, threads)) {
     if (group[a] == 0 || group[a] != group[b]) continue;
@@ -47,7 +49,8 @@ std::vector<Link> links_within(const ParticleTable& p, const std::vector<int>& g
 }
 
 /// beta for a wanted coordination number, by bisection over the pairs' own ratios: exact to one bond.
-double range_for_coordination(const ParticleTable& p, const std::vector<int>& group, double wanted, int threads) {
+double range_for_coordination(const ParticleTable& p, const std::vector<int>& group, double wanted,
+                              int threads) {
   double widest = 0.2;
   std::vector<double> ratios;
   const auto count = static_cast<std::size_t>(std::llround(0.5 * wanted * static_cast<double>(p.size)));
@@ -58,7 +61,8 @@ double range_for_coordination(const ParticleTable& p, const std::vector<int>& gr
     if (ratios.size() > count) break;
   }
   if (count == 0 || ratios.size() <= count)
-    fail<BadInput>("bonds.coordination: {} bonds per sphere cannot be reached by this specimen; ask for less", wanted);
+    fail<BadInput>("bonds.coordination: {} bonds per sphere cannot be reached by this specimen; ask for less",
+                   wanted);
   std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(count) - 1, ratios.end());
   return ratios[count - 1] + 1e-12;
 }
@@ -80,8 +84,8 @@ bool at_mantle(const Body& body, const Vec3& centre, double radius, double mean_
   return std::hypot(centre.x, centre.y) + reach > 0.5 * body.diameter;
 }
 
-Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule& rule, const Features& features,
-                  int threads) {
+Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule& rule,
+                  const Features& features, int threads) {
   Assembly a;
   a.body = body;
   const std::size_t n = specimen.spheres.size();
@@ -104,16 +108,20 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
     if (at_mantle(body, s.centre, s.radius, a.mean_radius)) a.skin.push_back(static_cast<Row>(row));
   }
   if (p.free == 0 || a.first_top == p.free || a.first_top == n)
-    fail<BadInput>("{}: no sphere between or within the end layers (1.5 mean radii) of a body {} m high; "
-                   "check specimen.height and specimen.axis", specimen.source, body.height);
+    fail<BadInput>(
+        "{}: no sphere between or within the end layers (1.5 mean radii) of a body {} m high; "
+        "check specimen.height and specimen.axis",
+        specimen.source, body.height);
 
   a.range = rule.coordination ? range_for_coordination(p, group, *rule.coordination, threads) : rule.range;
   std::vector<Link> links = links_within(p, group, a.range, threads);
   if (links.empty())
-    fail<BadInput>("{}: no bond found within a range of {} of the radii; check bonds.range and the unit of the file",
-                   specimen.source, a.range);
+    fail<BadInput>(
+        "{}: no bond found within a range of {} of the radii; check bonds.range and the unit of the file",
+        specimen.source, a.range);
   std::sort(links.begin(), links.end(), [](const Link& x, const Link& y) {
-    return std::pair(std::min(x.lo, x.hi), std::max(x.lo, x.hi)) < std::pair(std::min(y.lo, y.hi), std::max(y.lo, y.hi));
+    return std::pair(std::min(x.lo, x.hi), std::max(x.lo, x.hi)) <
+           std::pair(std::min(y.lo, y.hi), std::max(y.lo, y.hi));
   });
 
   BondTable& b = a.bonds;

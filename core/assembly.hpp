@@ -1,5 +1,5 @@
-// A specimen made ready: particles in their order, bonds between them, the layers that platens hold, the skin. It is
-// made once; every run of a series starts from a copy.
+// A specimen made ready: particles in their order, bonds between them, the layers that platens hold, the
+// skin. It is made once; every run of a series starts from a copy.
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -19,29 +19,32 @@ struct BondingRule {
 struct Assembly {
   Body body;
   ParticleTable particles;
-  BondTable bonds;                   ///< areas with alpha = 1; stiffness and damping not yet set
-  std::size_t first_top = 0;         ///< rows [particles.free, first_top) lower layer, [first_top, size) upper layer
-  std::vector<Row> skin;             ///< particles at the mantle, rising rows
-  double mean_radius = 0;            ///< m
-  double layer = 0;                  ///< m, thickness of the held layers
-  double range = 0;                  ///< beta that was used
-  double coordination = 0;           ///< bonds per particle, both ends counted
-  std::size_t short_bonds = 0;       ///< nested spheres whose strains use a floor for their length
+  BondTable bonds;            ///< areas with alpha = 1; stiffness and damping not yet set
+  std::size_t first_top = 0;  ///< rows [particles.free, first_top) lower layer, [first_top, size) upper layer
+  std::vector<Row> skin;      ///< particles at the mantle, rising rows
+  double mean_radius = 0;     ///< m
+  double layer = 0;           ///< m, thickness of the held layers
+  double range = 0;           ///< beta that was used
+  double coordination = 0;    ///< bonds per particle, both ends counted
+  std::size_t short_bonds = 0;  ///< nested spheres whose strains use a floor for their length
 
-  double section() const;            ///< m^2, nominal, across the axis
-  double mantle() const;             ///< m^2, nominal
+  double section() const;  ///< m^2, nominal, across the axis
+  double mantle() const;   ///< m^2, nominal
   double volume() const { return section() * body.height; }
 };
 
-/// Length of a bond that stiffness and strains refer to: the rest length, or 0.2 (r_i + r_j) for nested spheres.
-inline double strain_length_of(double rest_length, double radius_sum) { return std::max(rest_length, 0.2 * radius_sum); }
+/// Length of a bond that stiffness and strains refer to: the rest length, or 0.2 (r_i + r_j) for nested
+/// spheres.
+inline double strain_length_of(double rest_length, double radius_sum) {
+  return std::max(rest_length, 0.2 * radius_sum);
+}
 
 /// True where a sphere reaches the nominal mantle to within 0.3 mean radii.
 bool at_mantle(const Body& body, const Vec3& centre, double radius, double mean_radius);
 
 /// @param specimen  axis along z, middle at the origin
 /// @throws BadInput when nothing is bonded, or no sphere lies in an end layer
-Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule& rule, const Features& features,
-                  int threads);
+Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule& rule,
+                  const Features& features, int threads);
 
 }  // namespace breccia

@@ -16,8 +16,8 @@ Platens make_platens(const Assembly& a, const ParticleTable& particles, bool rou
     specimen_mass += particles.mass[row];
     if (row >= particles.free) p.mass[row >= a.first_top] += particles.mass[row];
   }
-  // the axial wave impedance of the specimen: critical for half its mass on half its stiffness, and a wave that
-  // reaches the platen is swallowed instead of sent back
+  // the axial wave impedance of the specimen: critical for half its mass on half its stiffness, and a wave
+  // that reaches the platen is swallowed instead of sent back
   p.dashpot = p.section * std::sqrt(young_modulus * specimen_mass / a.volume());
   return p;
 }
@@ -34,7 +34,8 @@ void drive_platens(Platens& platens, const ParticleTable& particles, std::size_t
       const auto k = static_cast<std::size_t>(end);
       const double push = (platens.pressure - platens.stress[k]) * platens.section;
       // dashpot taken at the end of the step, so that no layer is too light for it
-      const double next = (speed + dt * push / platens.mass[k]) / (1.0 + dt * platens.dashpot / platens.mass[k]);
+      const double next =
+          (speed + dt * push / platens.mass[k]) / (1.0 + dt * platens.dashpot / platens.mass[k]);
       platens.velocity[k] = inward * next;
     }
   platens.travel[0] += dt * platens.velocity[0];
@@ -57,8 +58,8 @@ Confinement make_confinement(const Assembly& a) {
 
 void press_skin(Confinement& c, ParticleTable& particles) {
   if (c.pressure == 0.0) return;
-  // radial forces leave a net force and moments about x and y: the smallest horizontal correction a + b z + c (-y, x)
-  // that removes them and makes no moment about z
+  // radial forces leave a net force and moments about x and y: the smallest horizontal correction a + b z + c
+  // (-y, x) that removes them and makes no moment about z
   double n = 0.0, x1 = 0.0, y1 = 0.0, z1 = 0.0, z2 = 0.0, xz = 0.0, yz = 0.0, r2 = 0.0;
   Vec3 net, tilt;
   for (std::size_t k = 0; k < c.rows.size(); ++k) {
@@ -68,7 +69,8 @@ void press_skin(Confinement& c, ParticleTable& particles) {
     c.force[k] = {inward * x.x, inward * x.y, 0.0};
     net += c.force[k];
     tilt += x.z * c.force[k];
-    n += 1.0, x1 += x.x, y1 += x.y, z1 += x.z, z2 += x.z * x.z, xz += x.x * x.z, yz += x.y * x.z, r2 += radial;
+    n += 1.0, x1 += x.x, y1 += x.y, z1 += x.z, z2 += x.z * x.z, xz += x.x * x.z, yz += x.y * x.z,
+        r2 += radial;
   }
   Eigen::Matrix<double, 5, 5> gram;
   // clang-format off

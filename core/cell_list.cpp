@@ -8,8 +8,8 @@
 namespace breccia {
 namespace {
 
-/// Rows sorted by cell: cell c holds rows order[first[c]] ... order[first[c + 1] - 1], with a copy of what the
-/// distance test reads, in that order.
+/// Rows sorted by cell: cell c holds rows order[first[c]] ... order[first[c + 1] - 1], with a copy of what
+/// the distance test reads, in that order.
 struct Cells {
   std::array<std::int64_t, 3> count{};
   std::vector<std::uint32_t> first;
@@ -31,18 +31,20 @@ Cells sort_into_cells(std::span<const Vec3> position, std::span<const double> ra
   do {  // fragments may fly far: no more cells than a few per particle, whatever the extent
     cells.count = {cells_along(high.x - low.x), cells_along(high.y - low.y), cells_along(high.z - low.z)};
     side *= 1.3;
-  } while (cells.count[0] * cells.count[1] * cells.count[2] > 8 * static_cast<std::int64_t>(position.size()) + 64);
+  } while (cells.count[0] * cells.count[1] * cells.count[2] >
+           8 * static_cast<std::int64_t>(position.size()) + 64);
   const auto index = [](double at, double from, double to, std::int64_t n) {
     if (!(to > from)) return std::int64_t{0};
-    return std::clamp<std::int64_t>(static_cast<std::int64_t>((at - from) / (to - from) * static_cast<double>(n)), 0,
-                                    n - 1);
+    return std::clamp<std::int64_t>(
+        static_cast<std::int64_t>((at - from) / (to - from) * static_cast<double>(n)), 0, n - 1);
   };
   std::vector<std::uint32_t> cell(position.size());
   cells.first.assign(static_cast<std::size_t>(cells.count[0] * cells.count[1] * cells.count[2]) + 1, 0);
   for (std::size_t row = 0; row < position.size(); ++row) {
     const Vec3& p = position[row];
     const auto c = (index(p.z, low.z, high.z, cells.count[2]) * cells.count[1] +
-                    index(p.y, low.y, high.y, cells.count[1])) * cells.count[0] +
+                    index(p.y, low.y, high.y, cells.count[1])) *
+                       cells.count[0] +
                    index(p.x, low.x, high.x, cells.count[0]);
     cell[row] = static_cast<std::uint32_t>(c);
     ++cells.first[static_cast<std::size_t>(c) + 1];
@@ -63,15 +65,16 @@ Cells sort_into_cells(std::span<const Vec3> position, std::span<const double> ra
 
 }  // namespace
 
-std::vector<RowPair> near_pairs(std::span<const Vec3> position, std::span<const double> radius, double relative,
-                                double absolute, int threads) {
+std::vector<RowPair> near_pairs(std::span<const Vec3> position, std::span<const double> radius,
+                                double relative, double absolute, int threads) {
   if (position.empty()) return {};
   const double largest = *std::max_element(radius.begin(), radius.end());
   const double reach = (1.0 + relative) * 2.0 * largest + absolute;
   const Cells cells = sort_into_cells(position, radius, std::max(reach, 1e-300));
   const auto [nx, ny, nz] = cells.count;
 
-  // the rows before this one in its own cell, and the half of the neighbouring cells that come before: each pair once
+  // the rows before this one in its own cell, and the half of the neighbouring cells that come before: each
+  // pair once
   std::vector<std::vector<RowPair>> found(static_cast<std::size_t>(std::max(threads, 1)));
   const int ranges = position.size() < 512 ? 1 : std::max(threads, 1);
   const auto layers = static_cast<std::size_t>(ny * nz);
@@ -89,19 +92,22 @@ std::vector<RowPair> near_pairs(std::span<const Vec3> position, std::span<const 
         }
       }
     };
-    for (std::size_t layer = range_first(layers, range, ranges); layer < range_first(layers, range + 1, ranges); ++layer) {
+    for (std::size_t layer = range_first(layers, range, ranges);
+         layer < range_first(layers, range + 1, ranges); ++layer) {
       const auto cy = static_cast<std::int64_t>(layer) % ny, cz = static_cast<std::int64_t>(layer) / ny;
       for (std::int64_t cx = 0; cx < nx; ++cx) {
         const auto c = static_cast<std::size_t>((cz * ny + cy) * nx + cx);
         for (std::uint32_t i = cells.first[c]; i < cells.first[c + 1]; ++i) {
           // cells of a row along x are neighbours in memory: one run of spheres for each of the rows before
-          const std::int64_t left = std::max<std::int64_t>(cx - 1, 0), right = std::min<std::int64_t>(cx + 1, nx - 1);
+          const std::int64_t left = std::max<std::int64_t>(cx - 1, 0),
+                             right = std::min<std::int64_t>(cx + 1, nx - 1);
           for (std::int64_t dz = -1; dz <= 0; ++dz)
             for (std::int64_t dy = -1; dy <= (dz < 0 ? 1 : -1); ++dy) {
               const std::int64_t y = cy + dy, z = cz + dz;
               if (y < 0 || y >= ny || z < 0) continue;
               const auto row = static_cast<std::size_t>((z * ny + y) * nx);
-              test(i, cells.first[row + static_cast<std::size_t>(left)], cells.first[row + static_cast<std::size_t>(right) + 1]);
+              test(i, cells.first[row + static_cast<std::size_t>(left)],
+                   cells.first[row + static_cast<std::size_t>(right) + 1]);
             }
           if (cx > 0) test(i, cells.first[c - 1], cells.first[c]);
           test(i, cells.first[c], i);

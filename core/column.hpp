@@ -1,5 +1,5 @@
-// A column of a table is declared once, in one line of a COLUMNS macro: type, name, unit, role, feature that needs
-// it, meaning. Storage, results, ParaView output and the printed documentation derive from that line.
+// A column of a table is declared once, in one line of a COLUMNS macro: type, name, unit, role, feature that
+// needs it, meaning. Storage, results, ParaView output and the printed documentation derive from that line.
 #pragma once
 #include <cstddef>
 #include <cstdint>

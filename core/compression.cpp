@@ -34,7 +34,8 @@ Reading read(World& w, const Gauges& g) {
   Reading r;
   r.time = w.time;
   r.axial_strain = read_gauge(g.axial, w.particles.position, w.particles.reference_position) - g.axial_zero;
-  r.radial_strain = read_gauge(g.radial, w.particles.position, w.particles.reference_position) - g.radial_zero;
+  r.radial_strain =
+      read_gauge(g.radial, w.particles.position, w.particles.reference_position) - g.radial_zero;
   r.platen_strain = (travel(w) - g.travel_zero) / g.free_height;
   r.axial_stress = mean_stress(w);
   r.mismatch = std::abs(w.platens.stress[1] - w.platens.stress[0]);
@@ -60,16 +61,18 @@ void check_finite(const World& w, const CurveRow& row) {
   for (std::size_t k = 0; k < w.particles.size; ++k) {
     const Vec3& v = w.particles.velocity[k];
     if (std::isfinite(dot(v, v))) continue;
-    fail<SimulationBroke>("at {:.6g} s (step {}) particle {} has a velocity that is not a number; the step may be too "
-                          "large: try time.safety = {:.2g}", w.time, w.step, w.particles.gid[k], 0.5 * w.options.safety);
+    fail<SimulationBroke>(
+        "at {:.6g} s (step {}) particle {} has a velocity that is not a number; the step may be too "
+        "large: try time.safety = {:.2g}",
+        w.time, w.step, w.particles.gid[k], 0.5 * w.options.safety);
   }
-  fail<SimulationBroke>("at {:.6g} s (step {}) the energy is not a number; try time.safety = {:.2g}", w.time, w.step,
-                        0.5 * w.options.safety);
+  fail<SimulationBroke>("at {:.6g} s (step {}) the energy is not a number; try time.safety = {:.2g}", w.time,
+                        w.step, 0.5 * w.options.safety);
 }
 
 /// Tells a program how far a run is, a few times a second.
 class Teller {
- public:
+public:
   explicit Teller(const CompressionHooks& hooks) : hooks_(hooks) {}
   void tell(int stage, double fraction, const CurveRow& row) {
     const auto now = Clock::now();
@@ -78,7 +81,7 @@ class Teller {
     hooks_.progress(stage, fraction, row);
   }
 
- private:
+private:
   const CompressionHooks& hooks_;
   Clock::time_point last_{};
 };
@@ -104,11 +107,13 @@ bool press_hydrostatically(World& w, double pressure, Teller& teller, const Comp
     row.axial_stress_Pa = stress;
     const double since = w.time - start;
     teller.tell(1, std::min(1.0, since / (2.0 * rise)), row);
-    if (since > rise && row.kinetic_J < 1e-4 * row.stored_J && std::abs(stress - pressure) < 0.005 * pressure) break;
+    if (since > rise && row.kinetic_J < 1e-4 * row.stored_J && std::abs(stress - pressure) < 0.005 * pressure)
+      break;
     if (since > patience) {
-      result.warnings.push_back(fmt::format(
-          "the specimen did not come to rest under {:.4g} MPa within {:.3g} s: kinetic/stored {:.1e}, axial stress {:.4g} MPa",
-          pressure * 1e-6, patience, row.kinetic_J / row.stored_J, stress * 1e-6));
+      result.warnings.push_back(
+          fmt::format("the specimen did not come to rest under {:.4g} MPa within {:.3g} s: kinetic/stored "
+                      "{:.1e}, axial stress {:.4g} MPa",
+                      pressure * 1e-6, patience, row.kinetic_J / row.stored_J, stress * 1e-6));
       break;
     }
     if (hooks.interrupted && hooks.interrupted()) return false;
@@ -169,8 +174,8 @@ void load_axially(World& w, const Assembly& assembly, const CompressionTest& tes
 
 }  // namespace
 
-void run_compression(World& w, const Assembly& assembly, const CompressionTest& test, const CompressionHooks& hooks,
-                     CompressionResult& result) {
+void run_compression(World& w, const Assembly& assembly, const CompressionTest& test,
+                     const CompressionHooks& hooks, CompressionResult& result) {
   const auto start = Clock::now();
   Teller teller(hooks);
   if (test.confinement > 0.0 && !press_hydrostatically(w, test.confinement, teller, hooks, result))

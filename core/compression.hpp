@@ -1,5 +1,5 @@
-// A compression test: hydrostatic stage where there is confinement, then axial loading at constant speed and pressure.
-// MODEL section 10.
+// A compression test: hydrostatic stage where there is confinement, then axial loading at constant speed and
+// pressure. MODEL section 10.
 #pragma once
 #include <functional>
 #include <string>
@@ -12,20 +12,21 @@
 namespace breccia {
 
 struct CompressionTest {
-  double confinement = 0;        ///< Pa
-  double platen_speed = 0.1;     ///< m/s, of each platen
-  double stop_strain = 0.02;     ///< platen travel over height since the end of stage 1
-  double stop_after_peak = 0.5;  ///< ends when the deviator has fallen by this fraction of its peak; 0 = never
-  int frames = 20;               ///< pictures of the state over the whole strain, and one at the end; 0 = none
+  double confinement = 0;     ///< Pa
+  double platen_speed = 0.1;  ///< m/s, of each platen
+  double stop_strain = 0.02;  ///< platen travel over height since the end of stage 1
+  double stop_after_peak =
+      0.5;          ///< ends when the deviator has fallen by this fraction of its peak; 0 = never
+  int frames = 20;  ///< pictures of the state over the whole strain, and one at the end; 0 = none
 };
 
 enum class Stopped { strain, peak_drop, interrupted };
 
 struct CompressionResult {
-  Recorder record;                 ///< rows of stage 2; strains from its start
+  Recorder record;  ///< rows of stage 2; strains from its start
   Stopped stopped = Stopped::strain;
   std::uint64_t stage1_steps = 0;
-  double run_time = 0;             ///< s, wall, of both stages
+  double run_time = 0;  ///< s, wall, of both stages
   std::vector<std::string> warnings;
 };
 

@@ -16,8 +16,9 @@ bool are_bonded(const ContactSearch& search, Row a, Row b) {
                             search.partners.begin() + search.first_partner[a + 1], b);
 }
 
-/// Largest distance that a particle has moved against a specimen that is stretched evenly along its axis, and the
-/// largest speed: what is uniform brings no two neighbours together by more than strain times their distance.
+/// Largest distance that a particle has moved against a specimen that is stretched evenly along its axis, and
+/// the largest speed: what is uniform brings no two neighbours together by more than strain times their
+/// distance.
 struct Moved {
   double distance2 = 0, speed2 = 0;
   Moved& operator+=(const Moved& o) {
@@ -81,12 +82,13 @@ bool search_is_due(ContactSearch& s, const ParticleTable& p, std::uint64_t step,
   // slack <= 0: pairs that overlap unbonded are in contact from the start
   const bool due = s.slack <= 0.0 || used + ahead > s.slack;
   // particles so fast that a new list does not last until then are looked at sooner
-  if (due && ahead > s.skin) s.next_check = step + std::max<std::uint64_t>(1, static_cast<std::uint64_t>(s.skin / per_step));
+  if (due && ahead > s.skin)
+    s.next_check = step + std::max<std::uint64_t>(1, static_cast<std::uint64_t>(s.skin / per_step));
   return due;
 }
 
-void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTable& p, const ContactMaterial& material,
-                    const Features& features, int threads) {
+void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTable& p,
+                    const ContactMaterial& material, const Features& features, int threads) {
   using std::numbers::pi;
   const bool first_list = !s.awake;
   s.awake = true;
@@ -95,9 +97,8 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
   s.position = p.position;
   std::vector<RowPair> pairs = near_pairs(p.position, p.radius, 0.0, s.skin, threads);
   std::erase_if(pairs, [&](const RowPair& pair) { return are_bonded(s, pair.a, pair.b); });
-  std::sort(pairs.begin(), pairs.end(), [](const RowPair& x, const RowPair& y) {
-    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
-  });
+  std::sort(pairs.begin(), pairs.end(),
+            [](const RowPair& x, const RowPair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
 
   const ContactTable before = std::move(contacts);
   std::vector<std::pair<std::pair<Row, Row>, std::size_t>> known;  // pairs with a history worth keeping
@@ -121,7 +122,9 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
     contacts.row_hi[k] = hi;
     contacts.stiffness[k] = material.young * material.alpha * pi * smaller * smaller / touch;
     if (features.contact_damping)
-      contacts.damping[k] = 2.0 * material.damping * std::sqrt(p.mass[lo] * p.mass[hi] / (p.mass[lo] + p.mass[hi]) * contacts.stiffness[k]);
+      contacts.damping[k] =
+          2.0 * material.damping *
+          std::sqrt(p.mass[lo] * p.mass[hi] / (p.mass[lo] + p.mass[hi]) * contacts.stiffness[k]);
     // pairs that overlap unbonded from the start are free of stress where they are
     contacts.free_length[k] = first_list ? std::min(touch, distance) : touch;
     const std::pair<Row, Row> key = std::minmax(lo, hi);

@@ -1,5 +1,5 @@
-// Contacts between surfaces that were never bonded. The search sleeps until two of them can meet, then is renewed
-// whenever particles have used up the skin.
+// Contacts between surfaces that were never bonded. The search sleeps until two of them can meet, then is
+// renewed whenever particles have used up the skin.
 #pragma once
 #include <vector>
 
@@ -10,16 +10,16 @@
 namespace breccia {
 
 struct ContactSearch {
-  bool enabled = true;                ///< off: the scene leaves out new contacts
-  bool awake = false;                 ///< a list of candidates exists
-  double skin = 0;                    ///< m, candidates are apart by less than this
-  double slack = 0;                   ///< m, what pairs may approach before the list must be renewed
-  double reach = 0;                   ///< m, largest distance that a candidate pair can have
-  int check_every = 16;               ///< steps
-  std::uint64_t next_check = 0;       ///< step
+  bool enabled = true;           ///< off: the scene leaves out new contacts
+  bool awake = false;            ///< a list of candidates exists
+  double skin = 0;               ///< m, candidates are apart by less than this
+  double slack = 0;              ///< m, what pairs may approach before the list must be renewed
+  double reach = 0;              ///< m, largest distance that a candidate pair can have
+  int check_every = 16;          ///< steps
+  std::uint64_t next_check = 0;  ///< step
   std::uint64_t rebuilds = 0;
-  std::vector<Vec3> position;         ///< m, of the particles when the list was made
-  std::vector<Index> first_partner;   ///< per particle: rows bonded to it, rising
+  std::vector<Vec3> position;        ///< m, of the particles when the list was made
+  std::vector<Index> first_partner;  ///< per particle: rows bonded to it, rising
   std::vector<Row> partners;
 };
 
@@ -27,13 +27,14 @@ struct ContactSearch {
 ContactSearch make_contact_search(const Assembly& assembly, bool enabled, double skin);
 
 /// True when surfaces without a bond may have come within reach since the list was made.
-bool search_is_due(ContactSearch& search, const ParticleTable& particles, std::uint64_t step, double dt, int threads);
+bool search_is_due(ContactSearch& search, const ParticleTable& particles, std::uint64_t step, double dt,
+                   int threads);
 
 /// What a new contact is made of.
 struct ContactMaterial {
-  double young = 0;            ///< Pa
-  double alpha = 0;            ///< area factor, as of the bonds
-  double damping = 0;          ///< xi
+  double young = 0;    ///< Pa
+  double alpha = 0;    ///< area factor, as of the bonds
+  double damping = 0;  ///< xi
 };
 
 /// Makes the list of candidates anew; pairs that were in contact keep their history.

@@ -19,7 +19,8 @@ void put(Eigen::VectorXd& v, std::size_t at, const Vec3& f) {
 }
 
 /// Force on one end (`sign` +1: lo) of a spring and its torque there.
-void add_spring(const ElasticNetwork::Spring& s, bool is_hi, const Eigen::VectorXd& u, Vec3& force, Vec3& torque) {
+void add_spring(const ElasticNetwork::Spring& s, bool is_hi, const Eigen::VectorXd& u, Vec3& force,
+                Vec3& torque) {
   const std::size_t lo = 6 * std::size_t{s.lo}, hi = 6 * std::size_t{s.hi};
   const Vec3 turn = s.arm_lo * three(u, lo + 3) + s.arm_hi * three(u, hi + 3);
   const Vec3 relative = three(u, hi) - three(u, lo) - cross(turn, s.normal);
@@ -29,7 +30,6 @@ void add_spring(const ElasticNetwork::Spring& s, bool is_hi, const Eigen::Vector
   force += is_hi ? f : -f;  // K u is what must be applied: minus the spring's force on the end
   torque -= (is_hi ? s.arm_hi : s.arm_lo) * moment;
 }
-
 
 }  // namespace
 
@@ -44,8 +44,13 @@ ElasticNetwork elastic_network(const ParticleTable& p, const BondTable& b, bool 
     const Row lo = b.row_lo[k], hi = b.row_hi[k];
     const auto [normal, shear] = constants(k);
     const double arm_ratio = rotation ? b.rest_length[k] / (p.radius[lo] + p.radius[hi]) : 0.0;
-    net.springs[k] = {lo, hi, (1.0 / b.rest_length[k]) * (p.reference_position[hi] - p.reference_position[lo]),
-                      normal, shear, arm_ratio * p.radius[lo], arm_ratio * p.radius[hi]};
+    net.springs[k] = {lo,
+                      hi,
+                      (1.0 / b.rest_length[k]) * (p.reference_position[hi] - p.reference_position[lo]),
+                      normal,
+                      shear,
+                      arm_ratio * p.radius[lo],
+                      arm_ratio * p.radius[hi]};
     ++net.first_entry[lo + 1];
     ++net.first_entry[hi + 1];
   }
@@ -113,9 +118,11 @@ ElasticResponse probe(const Assembly& a, double young, double shear_ratio, bool 
   }
   // the affine field is a good first guess
   for (std::size_t row = 0; row < a.particles.free; ++row)
-    u[static_cast<Eigen::Index>(6 * row + 2)] = -2.0 * push / a.body.height * a.particles.reference_position[row].z;
+    u[static_cast<Eigen::Index>(6 * row + 2)] =
+        -2.0 * push / a.body.height * a.particles.reference_position[row].z;
 
-  // conjugate gradients on the free unknowns, preconditioned by the diagonal; a prescribed unknown has a zero there
+  // conjugate gradients on the free unknowns, preconditioned by the diagonal; a prescribed unknown has a zero
+  // there
   const auto free = (inverse_diagonal.array() > 0.0).cast<double>().matrix().eval();
   Eigen::VectorXd force(n), residual(n), direction(n), image(n);
   apply_stiffness(net, u, force);
@@ -146,7 +153,8 @@ ElasticResponse probe(const Assembly& a, double young, double shear_ratio, bool 
     reaction += (row < a.first_top ? 0.5 : -0.5) * force[static_cast<Eigen::Index>(6 * row + 2)];
   const auto strain = [&](const Gauge& g) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < g.rows.size(); ++k) sum += dot(g.weights[k], three(u, 6 * std::size_t{g.rows[k]}));
+    for (std::size_t k = 0; k < g.rows.size(); ++k)
+      sum += dot(g.weights[k], three(u, 6 * std::size_t{g.rows[k]}));
     return sum;
   };
   const double axial = strain(axial_gauge(a)), radial = strain(radial_gauge(a));

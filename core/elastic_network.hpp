@@ -1,5 +1,5 @@
-// The bonds as a linear elastic network: the stiffness that the probe for alpha solves with, and that bounds the
-// time step.
+// The bonds as a linear elastic network: the stiffness that the probe for alpha solves with, and that bounds
+// the time step.
 #pragma once
 #include <Eigen/Core>
 #include <functional>
@@ -13,7 +13,7 @@ struct ElasticNetwork {
   struct Spring {
     Row lo, hi;
     Vec3 normal;
-    double k_n, k_s;       ///< N/m
+    double k_n, k_s;        ///< N/m
     double arm_lo, arm_hi;  ///< m
   };
   std::vector<Spring> springs;
@@ -28,11 +28,12 @@ struct SpringConstants {
 
 /// @param rotation   false: no arms, particles pass no torque
 /// @param constants  called with the row of each bond
-ElasticNetwork elastic_network(const ParticleTable& particles, const BondTable& bonds, bool rotation, int threads,
-                               const std::function<SpringConstants(std::size_t)>& constants);
+ElasticNetwork elastic_network(const ParticleTable& particles, const BondTable& bonds, bool rotation,
+                               int threads, const std::function<SpringConstants(std::size_t)>& constants);
 
 /// forces = K displacements; both of 6 * particles.
-void apply_stiffness(const ElasticNetwork& network, const Eigen::VectorXd& displacements, Eigen::VectorXd& forces);
+void apply_stiffness(const ElasticNetwork& network, const Eigen::VectorXd& displacements,
+                     Eigen::VectorXd& forces);
 
 /// What the assembly does when its layers are pushed together: the answer of a static linear solve.
 struct ElasticResponse {

@@ -32,7 +32,8 @@ Gauge radial_gauge(const Assembly& a) {
   mean = (1.0 / static_cast<double>(g.rows.size())) * mean;
   double square = 0.0;
   for (const Row row : g.rows) square += std::pow(x[row].x - mean.x, 2) + std::pow(x[row].y - mean.y, 2);
-  for (const Row row : g.rows) g.weights.push_back({-(x[row].x - mean.x) / square, -(x[row].y - mean.y) / square, 0.0});
+  for (const Row row : g.rows)
+    g.weights.push_back({-(x[row].x - mean.x) / square, -(x[row].y - mean.y) / square, 0.0});
   return g;
 }
 

@@ -1,4 +1,5 @@
-// Strain gauges glued to the specimen: strains as fixed linear combinations of displacements. MODEL section 10.
+// Strain gauges glued to the specimen: strains as fixed linear combinations of displacements. MODEL
+// section 10.
 #pragma once
 #include <vector>
 

@@ -4,7 +4,9 @@ namespace breccia {
 
 double paper_shear_ratio(double poisson_ratio) { return 0.5 / (1.0 + poisson_ratio); }
 
-double matched_shear_ratio(double poisson_ratio) { return (1.0 - 4.0 * poisson_ratio) / (1.0 + poisson_ratio); }
+double matched_shear_ratio(double poisson_ratio) {
+  return (1.0 - 4.0 * poisson_ratio) / (1.0 + poisson_ratio);
+}
 
 DempackLaw law_of(const Material& m, double shear_ratio) {
   DempackLaw law;
@@ -23,17 +25,19 @@ DempackLaw law_of(const Material& m, double shear_ratio) {
     law.limit_strain[k] = strain;
     law.slope[k] = slope;
   }
-  // delta = 2 E G_I/(sigma_t^2 L) - 1 and 2 k_s G_II/(tau_f^2 A) - 1, with k_s = kappa E A/L (MODEL section 3)
+  // delta = 2 E G_I/(sigma_t^2 L) - 1 and 2 k_s G_II/(tau_f^2 A) - 1, with k_s = kappa E A/L (MODEL section
+  // 3)
   law.softening_normal = m.damage_normal;
   if (m.fracture_energy_normal) {
     law.softening_normal = -1.0;
-    law.softening_normal_length = 2.0 * m.young_modulus * *m.fracture_energy_normal / (m.tensile_strength * m.tensile_strength);
+    law.softening_normal_length =
+        2.0 * m.young_modulus * *m.fracture_energy_normal / (m.tensile_strength * m.tensile_strength);
   }
   law.softening_shear = m.damage_shear;
   if (m.fracture_energy_shear) {
     law.softening_shear = -1.0;
-    law.softening_shear_length =
-        2.0 * shear_ratio * m.young_modulus * *m.fracture_energy_shear / (m.shear_strength * m.shear_strength);
+    law.softening_shear_length = 2.0 * shear_ratio * m.young_modulus * *m.fracture_energy_shear /
+                                 (m.shear_strength * m.shear_strength);
   }
   return law;
 }

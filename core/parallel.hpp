@@ -1,5 +1,5 @@
-// Threads: every loop of the step is cut into as many contiguous ranges as there are threads, and TBB runs them.
-// Which thread runs which range does not matter to any result.
+// Threads: every loop of the step is cut into as many contiguous ranges as there are threads, and TBB runs
+// them. Which thread runs which range does not matter to any result.
 #pragma once
 #include <tbb/parallel_for.h>
 
@@ -41,7 +41,8 @@ void for_ranges(int ranges, const Work& work) {
 #endif
 }
 
-/// First row of a range when `rows` are cut into `ranges` parts that are multiples of `batch` but for the last.
+/// First row of a range when `rows` are cut into `ranges` parts that are multiples of `batch` but for the
+/// last.
 inline std::size_t range_first(std::size_t rows, int range, int ranges, std::size_t batch = 1) {
   const std::size_t batches = (rows + batch - 1) / batch;
   return std::min(rows, batches * static_cast<std::size_t>(range) / static_cast<std::size_t>(ranges) * batch);
@@ -55,8 +56,8 @@ void for_rows(std::size_t rows, int ranges, const Work& work) {
   for_ranges(ranges, [&](int k) { work(range_first(rows, k, ranges), range_first(rows, k + 1, ranges)); });
 }
 
-/// Sum of term(row) over rows [0, rows), added in blocks of fixed size: the same bits for any number of threads.
-/// T needs +=; `block_sums` is storage kept between calls.
+/// Sum of term(row) over rows [0, rows), added in blocks of fixed size: the same bits for any number of
+/// threads. T needs +=; `block_sums` is storage kept between calls.
 template <class T, class Term>
 T sum_rows(std::size_t rows, int ranges, std::vector<T>& block_sums, const Term& term) {
   constexpr std::size_t block = 1024;

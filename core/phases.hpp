@@ -26,13 +26,13 @@ struct Phases {
 
 /// Adds the time until the end of its scope to a phase.
 class Lap {
- public:
+public:
   Lap(Phases& phases, Phase phase) : seconds_(phases[phase]), start_(std::chrono::steady_clock::now()) {}
   ~Lap() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   Lap(const Lap&) = delete;
   Lap& operator=(const Lap&) = delete;
 
- private:
+private:
   double& seconds_;
   std::chrono::steady_clock::time_point start_;
 };

@@ -1,5 +1,5 @@
-// The rows of a curve: sums over steps, turned into means when a row is full. Rows are merged in pairs when they become
-// many, so that a run of any length has between half of `capacity` and `capacity` rows.
+// The rows of a curve: sums over steps, turned into means when a row is full. Rows are merged in pairs when
+// they become many, so that a run of any length has between half of `capacity` and `capacity` rows.
 #pragma once
 #include <vector>
 
@@ -25,7 +25,8 @@ struct Recorder {
 /// Adds a step; true when a row is due.
 bool add_reading(Recorder& recorder, const Reading& reading);
 
-/// Closes the row: means of the readings, and what is known at its end (broken bonds, energies, pressure) from `end`.
+/// Closes the row: means of the readings, and what is known at its end (broken bonds, energies, pressure)
+/// from `end`.
 const CurveRow& close_row(Recorder& recorder, CurveRow end);
 
 }  // namespace breccia

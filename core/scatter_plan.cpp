@@ -82,8 +82,8 @@ void plan_gather(ScatterPlan& plan, std::span<const Index> row_lo, std::span<con
 std::size_t ScatterPlan::first(int range) const { return range_first(rows, range, ranges, batch); }
 
 ScatterPlan plan_scatter(ScatterKind kind, int ranges, std::size_t batch, std::span<const Index> row_lo,
-                         std::span<const Index> row_hi, std::span<const Gid> gid_lo, std::span<const Gid> gid_hi,
-                         std::size_t particles, bool torques) {
+                         std::span<const Index> row_hi, std::span<const Gid> gid_lo,
+                         std::span<const Gid> gid_hi, std::size_t particles, bool torques) {
   ScatterPlan plan;
   plan.kind = kind;
   plan.ranges = ranges;
@@ -113,16 +113,17 @@ ScatterPlan plan_scatter(ScatterKind kind, int ranges, std::size_t batch, std::s
 Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span<const Index> row_hi,
                      ParticleTable& particles) {
   Scatter view;
-  view.mode = plan.kind == ScatterKind::gather                        ? ScatterMode::columns
+  view.mode = plan.kind == ScatterKind::gather                      ? ScatterMode::columns
               : plan.kind == ScatterKind::atomic && plan.ranges > 1 ? ScatterMode::atomic
-                                                                      : ScatterMode::own;
+                                                                    : ScatterMode::own;
   view.row_lo = row_lo;
   view.row_hi = row_hi;
   view.to_lo = plan.to_lo.empty() ? row_lo : std::span<const Index>(plan.to_lo);
   view.to_hi = plan.to_hi.empty() ? row_hi : std::span<const Index>(plan.to_hi);
   view.radius = particles.radius;
   // the ranges' own sums are rows past the particles
-  if (particles.force.size() < particles.size + plan.slot_count) particles.force.resize(particles.size + plan.slot_count);
+  if (particles.force.size() < particles.size + plan.slot_count)
+    particles.force.resize(particles.size + plan.slot_count);
   view.force = particles.force;
   if (!particles.spin.empty()) {
     if (particles.torque.size() < particles.force.size()) particles.torque.resize(particles.force.size());

@@ -1,5 +1,6 @@
-// Which range of bonds (or contacts) may add to which particle, worked out once when the rows are sorted. A particle
-// touched from one range only is interior and gets plain adds; every other is shared (DESIGN: the loop).
+// Which range of bonds (or contacts) may add to which particle, worked out once when the rows are sorted. A
+// particle touched from one range only is interior and gets plain adds; every other is shared (DESIGN: the
+// loop).
 #pragma once
 #include <span>
 #include <vector>
@@ -13,13 +14,14 @@ namespace breccia {
 struct ScatterPlan {
   ScatterKind kind = ScatterKind::private_sums;
   int ranges = 1;
-  std::size_t rows = 0;   ///< bonds, padding included
-  std::size_t batch = 1;  ///< ranges begin at multiples of this
+  std::size_t rows = 0;             ///< bonds, padding included
+  std::size_t batch = 1;            ///< ranges begin at multiples of this
   std::vector<Index> to_lo, to_hi;  ///< empty where they equal the rows of the ends
   /// private sums: shared particle k adds slots[first_slot[k] ... first_slot[k + 1]), in the order of ranges
   std::vector<Index> shared, first_slot, slots;
   std::size_t slot_count = 0;
-  /// gather: particle p sums entries[first_entry[p] ...): bond row << 1 | particle is hi, in the order of bonds' ids
+  /// gather: particle p sums entries[first_entry[p] ...): bond row << 1 | particle is hi, in the order of
+  /// bonds' ids
   std::vector<Index> first_entry, entries;
   std::vector<Vec3> bond_force, bond_turn;
 
@@ -28,8 +30,8 @@ struct ScatterPlan {
 
 /// @param gid_lo, gid_hi  ids of the ends: they order the sums of `gather`
 ScatterPlan plan_scatter(ScatterKind kind, int ranges, std::size_t batch, std::span<const Index> row_lo,
-                         std::span<const Index> row_hi, std::span<const Gid> gid_lo, std::span<const Gid> gid_hi,
-                         std::size_t particles, bool torques);
+                         std::span<const Index> row_hi, std::span<const Gid> gid_lo,
+                         std::span<const Gid> gid_hi, std::size_t particles, bool torques);
 
 /// The view that a pass writes to; valid until the tables change.
 Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span<const Index> row_hi,

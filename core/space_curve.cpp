@@ -48,7 +48,9 @@ std::vector<std::uint64_t> hilbert_keys(std::span<const Vec3> points) {
   const Vec3 extent = high - low;
   const double side = std::max({extent.x, extent.y, extent.z, 1e-300});
   const double cells = (1u << bits) - 1;
-  const auto cell = [&](double at, double from) { return static_cast<std::uint32_t>((at - from) / side * cells); };
+  const auto cell = [&](double at, double from) {
+    return static_cast<std::uint32_t>((at - from) / side * cells);
+  };
   for (std::size_t k = 0; k < points.size(); ++k)
     keys[k] = hilbert_index({cell(points[k].x, low.x), cell(points[k].y, low.y), cell(points[k].z, low.z)});
   return keys;

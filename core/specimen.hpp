@@ -9,9 +9,9 @@ namespace breccia {
 
 struct SpecimenSphere {
   Gid id = 0;
-  Vec3 centre;         ///< m
-  double radius = 0;   ///< m
-  int group = 1;       ///< cohesive group; 0 = bonds with nobody
+  Vec3 centre;           ///< m
+  double radius = 0;     ///< m
+  int group = 1;         ///< cohesive group; 0 = bonds with nobody
   std::size_t line = 0;  ///< line of the file it was read from; 0 when packed
 };
 

@@ -27,9 +27,10 @@ void bond_forces(World& w) {
   ParticleTable& p = w.particles;
   BondTable& b = w.bonds;
   const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, p);
-  const BondPassIn in{w.dt,     w.law,    p.position,    p.velocity, p.spin,     p.radius,
+  const BondPassIn in{w.dt,     w.law,    p.position,    p.velocity, p.spin,      p.radius,
                       b.row_lo, b.row_hi, b.rest_length, b.area,     b.stiffness, b.damping};
-  const BondPassHistory history{b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear};
+  const BondPassHistory history{b.shear_x,         b.shear_y,       b.shear_z,
+                                b.plastic_stretch, b.damage_normal, b.damage_shear};
   for_ranges(w.bond_plan.ranges, [&](int range) {
     w.bond_pass(in, history, w.bond_plan.first(range), w.bond_plan.first(range + 1), to);
   });
@@ -41,9 +42,18 @@ void contact_forces(World& w) {
   ParticleTable& p = w.particles;
   ContactTable& c = w.contacts;
   const Scatter to = scatter_view(w.contact_plan, c.row_lo, c.row_hi, p);
-  const ContactPassIn in{w.dt,     w.law.shear_ratio, w.law.friction_dynamic, w.features.rotation,
-                         p.position, p.velocity,      p.spin,                 p.radius,
-                         c.row_lo, c.row_hi,          c.stiffness,            c.damping};
+  const ContactPassIn in{w.dt,
+                         w.law.shear_ratio,
+                         w.law.friction_dynamic,
+                         w.features.rotation,
+                         p.position,
+                         p.velocity,
+                         p.spin,
+                         p.radius,
+                         c.row_lo,
+                         c.row_hi,
+                         c.stiffness,
+                         c.damping};
   const ContactPassHistory history{c.free_length, c.shear_force};
   for_ranges(w.contact_plan.ranges, [&](int range) {
     contact_pass(in, history, w.contact_plan.first(range), w.contact_plan.first(range + 1), to);

@@ -56,7 +56,8 @@ CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double>
   const double at_peak = peak.broken_tension + peak.broken_shear;
   if (at_peak > 0)
     for (std::size_t k = 0; k <= f.peak_row && !f.crack_initiation_stress; ++k)
-      if (rows[k].broken_tension + rows[k].broken_shear >= 0.01 * at_peak) f.crack_initiation_stress = rows[k].axial_stress_Pa;
+      if (rows[k].broken_tension + rows[k].broken_shear >= 0.01 * at_peak)
+        f.crack_initiation_stress = rows[k].axial_stress_Pa;
   std::size_t densest = 0;
   for (std::size_t k = 0; k <= f.peak_row; ++k)
     if (rows[k].volumetric_strain > rows[densest].volumetric_strain) densest = k;
@@ -70,10 +71,12 @@ CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double>
   return f;
 }
 
-std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement, std::span<const double> peak) {
+std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement,
+                                            std::span<const double> peak) {
   const std::size_t n = confinement.size();
   double mx = 0, my = 0;
-  for (std::size_t k = 0; k < n; ++k) mx += confinement[k] / static_cast<double>(n), my += peak[k] / static_cast<double>(n);
+  for (std::size_t k = 0; k < n; ++k)
+    mx += confinement[k] / static_cast<double>(n), my += peak[k] / static_cast<double>(n);
   double xx = 0, xy = 0;
   for (std::size_t k = 0; k < n; ++k)
     xx += (confinement[k] - mx) * (confinement[k] - mx), xy += (confinement[k] - mx) * (peak[k] - my);
@@ -84,7 +87,8 @@ std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement,
   fit.friction_angle_deg = std::asin((steepness - 1) / (steepness + 1)) * 180.0 / std::numbers::pi;
   fit.cohesion_Pa = unconfined / (2.0 * std::sqrt(steepness));
   double square = 0;
-  for (std::size_t k = 0; k < n; ++k) square += std::pow(peak[k] - unconfined - steepness * confinement[k], 2);
+  for (std::size_t k = 0; k < n; ++k)
+    square += std::pow(peak[k] - unconfined - steepness * confinement[k], 2);
   fit.residual_Pa = std::sqrt(square / static_cast<double>(n));
   fit.peaks = n;
   return fit;

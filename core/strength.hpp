@@ -12,8 +12,8 @@ namespace breccia {
 /// What a curve says; absent where it does not go far enough.
 struct CurveFindings {
   std::size_t peak_row = 0;
-  double peak_stress = 0;    ///< Pa, total
-  double peak_deviator = 0;  ///< Pa
+  double peak_stress = 0;     ///< Pa, total
+  double peak_deviator = 0;   ///< Pa
   bool peak_reached = false;  ///< the deviator fell by more than 1 % after its largest value
   double strain_at_peak = 0;
   std::optional<double> young_modulus, young_modulus_50, poisson_ratio;
@@ -28,6 +28,7 @@ CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double>
 
 /// Straight line sigma_1 = q + N sigma_3 through the peaks: sin phi = (N - 1)/(N + 1), c = q/(2 sqrt N).
 /// @returns nothing for fewer than two different confinements
-std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement, std::span<const double> peak);
+std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement,
+                                            std::span<const double> peak);
 
 }  // namespace breccia

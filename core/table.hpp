@@ -11,11 +11,16 @@ namespace breccia {
 /// True when a scene with these features stores a column with this need.
 constexpr bool is_needed(Need need, const Features& features) {
   switch (need) {
-    case Need::always: return true;
-    case Need::rotation: return features.rotation;
-    case Need::contact_damping: return features.contact_damping;
-    case Need::plasticity: return features.plasticity;
-    case Need::breakage: return features.breakage;
+    case Need::always:
+      return true;
+    case Need::rotation:
+      return features.rotation;
+    case Need::contact_damping:
+      return features.contact_damping;
+    case Need::plasticity:
+      return features.plasticity;
+    case Need::breakage:
+      return features.breakage;
   }
   return true;
 }
@@ -28,16 +33,20 @@ constexpr bool is_needed(Need need, const Features& features) {
 
 /// The body of a table: its columns, `for_each_column(visit)` with visit(ColumnInfo, vector&), and
 /// `resize(rows, features)`, which leaves the columns of absent features empty.
-#define BRECCIA_TABLE(COLUMNS)                                                                                \
-  COLUMNS(BRECCIA_COLUMN_MEMBER)                                                                              \
-  template <class Visit> void for_each_column(Visit&& visit) { COLUMNS(BRECCIA_COLUMN_VISIT) }                \
-  template <class Visit> void for_each_column(Visit&& visit) const { COLUMNS(BRECCIA_COLUMN_VISIT) }          \
-  std::size_t size = 0;   /* rows that mean something */                                                      \
-  std::size_t padded = 0; /* rows stored: size rounded up to whole batches */                                 \
-  void resize(std::size_t rows, const Features& features, std::size_t batch = 1) {                            \
-    size = rows;                                                                                              \
-    padded = (rows + batch - 1) / batch * batch;                                                              \
-    for_each_column([&](const ColumnInfo& info, auto& column) {                                               \
-      column.assign(is_needed(info.need, features) ? padded : 0, {});                                         \
-    });                                                                                                       \
+#define BRECCIA_TABLE(COLUMNS)                                                                 \
+  COLUMNS(BRECCIA_COLUMN_MEMBER)                                                               \
+  template <class Visit>                                                                       \
+  void for_each_column(Visit&& visit) {                                                        \
+    COLUMNS(BRECCIA_COLUMN_VISIT)                                                              \
+  }                                                                                            \
+  template <class Visit>                                                                       \
+  void for_each_column(Visit&& visit) const {COLUMNS(BRECCIA_COLUMN_VISIT)} std::size_t size = \
+      0;                  /* rows that mean something */                                       \
+  std::size_t padded = 0; /* rows stored: size rounded up to whole batches */                  \
+  void resize(std::size_t rows, const Features& features, std::size_t batch = 1) {             \
+    size = rows;                                                                               \
+    padded = (rows + batch - 1) / batch * batch;                                               \
+    for_each_column([&](const ColumnInfo& info, auto& column) {                                \
+      column.assign(is_needed(info.need, features) ? padded : 0, {});                          \
+    });                                                                                        \
   }

@@ -1,7 +1,7 @@
 #include "core/time_step.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Spectra/SymEigsSolver.h>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -65,13 +65,15 @@ double rayleigh_quotient(const StepOperator& op, const Eigen::VectorXd& x) {
 
 }  // namespace
 
-double critical_time_step(const ParticleTable& p, const BondTable& b, double shear_ratio, double damping, int threads) {
+double critical_time_step(const ParticleTable& p, const BondTable& b, double shear_ratio, double damping,
+                          int threads) {
   const auto damper = [&](std::size_t k) { return b.damping.empty() ? 0.0 : b.damping[k]; };
   const StepOperator stiffness = step_operator(p, b, threads, [&](std::size_t k) {
     return SpringConstants{b.stiffness[k], shear_ratio * b.stiffness[k]};
   });
-  const StepOperator dashpots =
-      step_operator(p, b, threads, [&](std::size_t k) { return SpringConstants{damper(k), 0.0}; });
+  const StepOperator dashpots = step_operator(p, b, threads, [&](std::size_t k) {
+    return SpringConstants{damper(k), 0.0};
+  });
 
   const double limit = 1.0 / (1.0 + damping);
   const double proven = proven_time_step(p, b, shear_ratio, damping, threads);
@@ -84,8 +86,10 @@ double critical_time_step(const ParticleTable& p, const BondTable& b, double she
       return SpringConstants{stiff + 0.5 * dt * damper(k), shear_ratio * stiff};
     });
     Spectra::SymEigsSolver<StepOperator> solver(both, 1, std::min<Eigen::Index>(20, both.rows()));
-    if (mode.size() > 0) solver.init(mode.data());
-    else solver.init();
+    if (mode.size() > 0)
+      solver.init(mode.data());
+    else
+      solver.init();
     solver.compute(Spectra::SortRule::LargestAlge, 100, 1e-3);
     if (solver.info() != Spectra::CompInfo::Successful) return proven;
     mode = solver.eigenvectors().col(0);
@@ -99,7 +103,8 @@ double critical_time_step(const ParticleTable& p, const BondTable& b, double she
   return 0.98 * dt;
 }
 
-double proven_time_step(const ParticleTable& p, const BondTable& b, double shear_ratio, double damping, int threads) {
+double proven_time_step(const ParticleTable& p, const BondTable& b, double shear_ratio, double damping,
+                        int threads) {
   std::vector<std::vector<Row>> bonds_of(p.size);
   for (std::size_t k = 0; k < b.size; ++k) {
     bonds_of[b.row_lo[k]].push_back(static_cast<Row>(k));
@@ -117,7 +122,8 @@ double proven_time_step(const ParticleTable& p, const BondTable& b, double shear
         const Row other = b.row_lo[k] == row ? b.row_hi[k] : b.row_lo[k];
         const Vec3 l = p.reference_position[other] - p.reference_position[row];
         const Eigen::Vector3d n = Eigen::Vector3d(l.x, l.y, l.z).normalized();
-        const double arm = rotation ? b.rest_length[k] * p.radius[row] / (p.radius[row] + p.radius[other]) : 0.0;
+        const double arm =
+            rotation ? b.rest_length[k] * p.radius[row] / (p.radius[row] + p.radius[other]) : 0.0;
         // elongation and slip at the contact per unit of this end's displacement and rotation
         Eigen::Matrix<double, 3, 6> slip = Eigen::Matrix<double, 3, 6>::Zero();
         slip.leftCols<3>() = by_mass * (Eigen::Matrix3d::Identity() - n * n.transpose());

@@ -30,7 +30,8 @@ void set_bond_constants(World& w) {
     if (b.damping.empty()) continue;
     const double reduced_mass = p.mass[lo] * p.mass[hi] / (p.mass[lo] + p.mass[hi]);
     b.damping[k] = 2.0 * w.options.contact_damping * std::sqrt(reduced_mass * b.stiffness[k]);
-    if (w.options.paper_form) b.damping[k] *= pi * w.alpha * std::min(p.radius[lo], p.radius[hi]) / b.rest_length[k];
+    if (w.options.paper_form)
+      b.damping[k] *= pi * w.alpha * std::min(p.radius[lo], p.radius[hi]) / b.rest_length[k];
   }
 }
 
@@ -59,9 +60,9 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.first_top = assembly.first_top;
   set_masses(w.particles, material.density);
   set_bond_constants(w);
-  w.critical_dt = critical_time_step(w.particles, w.bonds, w.law.shear_ratio,
-                                     std::max(options.global_damping.translation, options.global_damping.rotation),
-                                     options.threads);
+  w.critical_dt = critical_time_step(
+      w.particles, w.bonds, w.law.shear_ratio,
+      std::max(options.global_damping.translation, options.global_damping.rotation), options.threads);
   w.dt = options.safety * w.critical_dt;
   w.platens = make_platens(assembly, w.particles, options.rough_platens, material.young_modulus);
   w.confinement = make_confinement(assembly);
@@ -101,13 +102,16 @@ double stored_energy(const World& w) {
   double sum = sum_rows<double>(b.size, w.options.threads, blocks, [&](std::size_t k) {
     const double distance = norm(w.particles.position[b.row_hi[k]] - w.particles.position[b.row_lo[k]]);
     const BondConstants<double> bond{b.rest_length[k], b.area[k], b.stiffness[k], 0.0};
-    const BondHistory<double> h{{b.shear_x[k], b.shear_y[k], b.shear_z[k]}, plastic ? b.plastic_stretch[k] : 0.0,
-                                breakable ? b.damage_normal[k] : 0.0, breakable ? b.damage_shear[k] : 0.0};
+    const BondHistory<double> h{{b.shear_x[k], b.shear_y[k], b.shear_z[k]},
+                                plastic ? b.plastic_stretch[k] : 0.0,
+                                breakable ? b.damage_normal[k] : 0.0,
+                                breakable ? b.damage_shear[k] : 0.0};
     return stored_energy(w.law, bond, h, distance, w.features.criterion);
   });
   const ContactTable& c = w.contacts;
   for (std::size_t k = 0; k < c.size; ++k) {
-    const double overlap = c.free_length[k] - norm(w.particles.position[c.row_hi[k]] - w.particles.position[c.row_lo[k]]);
+    const double overlap =
+        c.free_length[k] - norm(w.particles.position[c.row_hi[k]] - w.particles.position[c.row_lo[k]]);
     if (overlap <= 0.0) continue;
     sum += 0.5 * c.stiffness[k] * overlap * overlap;
     if (w.law.shear_ratio > 0.0)

@@ -1,4 +1,5 @@
-// Everything that a run moves: tables, boundary, search, constants. Made from an assembly, advanced by `step`.
+// Everything that a run moves: tables, boundary, search, constants. Made from an assembly, advanced by
+// `step`.
 #pragma once
 #include "core/area_factor.hpp"
 #include "core/assembly.hpp"
@@ -13,13 +14,13 @@
 namespace breccia {
 
 struct WorldOptions {
-  Features features;                 ///< that the scene asks for
+  Features features;  ///< that the scene asks for
   bool new_contacts = true;
   bool rough_platens = true;
-  double contact_damping = 0.9;      ///< xi
-  bool paper_form = false;           ///< damping times pi alpha r_c/d0 (Onate et al. 2015, eq. 30)
+  double contact_damping = 0.9;  ///< xi
+  bool paper_form = false;       ///< damping times pi alpha r_c/d0 (Onate et al. 2015, eq. 30)
   GlobalDamping global_damping{0.1, 0.1};
-  double safety = 0.8;               ///< of the critical step
+  double safety = 0.8;  ///< of the critical step
   ScatterKind scatter = ScatterKind::private_sums;
   int threads = 1;
   InstructionSet instruction_set = best_instruction_set();
@@ -30,7 +31,7 @@ struct World {
   Body body;
   Material material;
   DempackLaw law;
-  Features features;       ///< that run: those asked for, or the nearest superset that is built
+  Features features;  ///< that run: those asked for, or the nearest superset that is built
   double alpha = 1;
   double critical_dt = 0;  ///< s, proven bound
   double dt = 0;           ///< s

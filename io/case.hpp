@@ -17,41 +17,41 @@ struct SpecimenCase {
   std::optional<std::filesystem::path> file;  ///< the case's folder in front
   std::optional<PackRequest> pack;
   Body body;
-  char axis = 'z';              ///< of the cylinder or disc in the file
-  std::optional<Vec3> centre;   ///< m; overrides the middle of the box around the spheres
+  char axis = 'z';             ///< of the cylinder or disc in the file
+  std::optional<Vec3> centre;  ///< m; overrides the middle of the box around the spheres
 };
 
 struct BondsCase {
-  double range = 0.10;                  ///< beta
-  std::optional<double> coordination;   ///< target instead of range
+  double range = 0.10;                 ///< beta
+  std::optional<double> coordination;  ///< target instead of range
   AlphaRule alpha_rule = AlphaRule::automatic;
-  double alpha = 0;                     ///< when alpha_rule is number
+  double alpha = 0;  ///< when alpha_rule is number
   Elasticity elasticity = Elasticity::paper;
 };
 
 struct DampingCase {
-  double contact = 0.9;                 ///< xi, fraction of critical, along the bond
-  bool paper_form = false;              ///< form = "paper": times pi alpha r_c/d0
+  double contact = 0.9;     ///< xi, fraction of critical, along the bond
+  bool paper_form = false;  ///< form = "paper": times pi alpha r_c/d0
   double translation = 0.1, rotation = 0.1;
 };
 
 struct TestCase {
   std::vector<double> confinement{0.0};  ///< Pa
   bool rough_platens = true;
-  double platen_speed = 0.1;             ///< m/s, of each platen
+  double platen_speed = 0.1;  ///< m/s, of each platen
   double stop_strain = 0.02;
-  double stop_after_peak = 0.5;          ///< fraction of the peak deviator; 0 = never
+  double stop_after_peak = 0.5;  ///< fraction of the peak deviator; 0 = never
 };
 
-struct FeatureCase {                      ///< what the scene may leave out
+struct FeatureCase {  ///< what the scene may leave out
   bool rotation = true, plasticity = true, breakage = true, new_contacts = true;
 };
 
 struct Case {
-  std::filesystem::path source;          ///< the case file
+  std::filesystem::path source;  ///< the case file
   SpecimenCase specimen;
-  std::string preset;                    ///< name of the material preset; empty: none
-  std::vector<Material> materials;       ///< one per confinement, in the order of test.confinement
+  std::string preset;               ///< name of the material preset; empty: none
+  std::vector<Material> materials;  ///< one per confinement, in the order of test.confinement
   BondsCase bonds;
   DampingCase damping;
   FeatureCase features;
@@ -59,7 +59,7 @@ struct Case {
   double safety = 0.8;
   ScatterKind scatter = ScatterKind::private_sums;
   int frames = 20;
-  std::string resolved;                  ///< the whole case as TOML, every default written out
+  std::string resolved;  ///< the whole case as TOML, every default written out
 };
 
 /// Reads, checks and resolves a case file.
@@ -67,7 +67,8 @@ struct Case {
 /// @param sets   `--set` overrides, each "table.key=value"
 /// @param test   name of the program: "ucs", "triaxial", "pack", ... (some keys belong to some tests only)
 /// @throws BadInput: one line with file, line, key and the nearest valid choice
-Case load_case(const std::filesystem::path& file, const std::vector<std::string>& sets, const std::string& test);
+Case load_case(const std::filesystem::path& file, const std::vector<std::string>& sets,
+               const std::string& test);
 
 /// The keys that a test accepts, one a line: name, what is valid, default, meaning. For `--help`.
 std::string describe_keys(const std::string& test);

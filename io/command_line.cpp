@@ -1,10 +1,10 @@
 #include "io/command_line.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <sched.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -63,7 +63,8 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   app.add_option("CASE.toml", line.case_file, "the case to run")->required();
   app.add_option("--set", line.sets, "table.key=value, instead of the case's")->allow_extra_args(false);
   app.add_option("--out", line.out, "folder for the results [out/CASE]");
-  app.add_option("--threads", line.threads, fmt::format("[{} here]", line.threads))->check(CLI::Range(1, 4096));
+  app.add_option("--threads", line.threads, fmt::format("[{} here]", line.threads))
+      ->check(CLI::Range(1, 4096));
   app.add_flag("--explain", line.explain, "say what the scene uses and leaves out; write nothing");
   app.add_flag("--dry-run", line.dry_run, "read, check, bond, print; write nothing");
   app.add_flag("--force", line.force, "replace results that are there");
@@ -81,9 +82,11 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   struct sigaction action {};
   action.sa_handler = ask_to_stop;
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(line.threads));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(line.threads));
   try {
-    if (resume) fail<BadInput>("--resume: not in this version; run without it, with --force to replace the results");
+    if (resume)
+      fail<BadInput>("--resume: not in this version; run without it, with --force to replace the results");
     refuse_ranks();
     body(line);
   } catch (const BadInput& error) {

@@ -8,10 +8,10 @@
 namespace breccia {
 
 struct CommandLine {
-  std::string program;               ///< "triaxial"
+  std::string program;  ///< "triaxial"
   std::filesystem::path case_file;
-  std::vector<std::string> sets;     ///< --set table.key=value
-  std::filesystem::path out;         ///< --out, or out/STEM-OF-CASE
+  std::vector<std::string> sets;  ///< --set table.key=value
+  std::filesystem::path out;      ///< --out, or out/STEM-OF-CASE
   int threads = 1;
   bool explain = false, dry_run = false, force = false, quiet = false;
 };

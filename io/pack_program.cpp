@@ -20,8 +20,10 @@ void run_pack_program(const CommandLine& line) {
   const Specimen specimen = make_specimen(c, progress);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Assembly a = assemble(specimen, c.specimen.body, {}, Features{}, line.threads);
-  say(progress, fmt::format("{} spheres in {:.1f} s, mean radius {:.4g} mm, porosity {:.4f}, {:.2f} neighbours within 1.1 radii",
-                            a.particles.size, seconds, a.mean_radius * 1e3, c.specimen.pack->porosity, a.coordination));
+  say(progress,
+      fmt::format("{} spheres in {:.1f} s, mean radius {:.4g} mm, porosity {:.4f}, {:.2f} neighbours within "
+                  "1.1 radii",
+                  a.particles.size, seconds, a.mean_radius * 1e3, c.specimen.pack->porosity, a.coordination));
   if (line.dry_run || line.explain) return;
   claim_run_folder(line.out, line.force);
   write_aside(line.out / "case.toml", c.resolved);

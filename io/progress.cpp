@@ -8,11 +8,14 @@ namespace {
 
 using std::chrono::steady_clock;
 
-double seconds_since(steady_clock::time_point t) { return std::chrono::duration<double>(steady_clock::now() - t).count(); }
+double seconds_since(steady_clock::time_point t) {
+  return std::chrono::duration<double>(steady_clock::now() - t).count();
+}
 
 std::string clock_time(double seconds) {
   const auto s = static_cast<long>(seconds);
-  return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02}", s / 60, s % 60);
+  return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)
+                   : fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
 void clear(Progress& p) {
@@ -42,9 +45,10 @@ void tell(Progress& p, const World& w, int stage, double fraction, const CurveRo
   const double speed = static_cast<double>(w.bonds.size) * static_cast<double>(w.step) / elapsed;
   const std::string left = fraction > 0.01 && stage == 2 ? clock_time(elapsed * (1.0 / fraction - 1.0)) : "-";
   const std::string line = fmt::format(
-      "{}  {}  {:3.0f} %  step {}  strain {:.5f}  stress {:.2f} MPa  broken {:.0f}  {:.0f} Mbond/s  left at most {}", p.title,
-      stage == 1 ? "hydrostatic" : "axial", 100.0 * fraction, w.step, row.axial_strain, row.axial_stress_Pa * 1e-6,
-      row.broken_tension + row.broken_shear, speed * 1e-6, left);
+      "{}  {}  {:3.0f} %  step {}  strain {:.5f}  stress {:.2f} MPa  broken {:.0f}  {:.0f} Mbond/s  left at "
+      "most {}",
+      p.title, stage == 1 ? "hydrostatic" : "axial", 100.0 * fraction, w.step, row.axial_strain,
+      row.axial_stress_Pa * 1e-6, row.broken_tension + row.broken_shear, speed * 1e-6, left);
   if (p.terminal) {
     fmt::print("\r\033[K{}", line);
     p.drawn = true;

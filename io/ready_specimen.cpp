@@ -30,9 +30,10 @@ Features asked_features(const Case& c) {
 Assembly make_assembly(const Case& c, const Features& features, int threads, Progress& progress) {
   const BondingRule rule{c.bonds.range, c.bonds.coordination};
   Assembly a = assemble(make_specimen(c, progress), c.specimen.body, rule, features, threads);
-  say(progress, fmt::format("{} spheres, mean radius {:.4g} mm; {} bonds within a range of {:.3g}, {:.2f} per sphere{}",
-                            a.particles.size, a.mean_radius * 1e3, a.bonds.size, a.range, a.coordination,
-                            a.short_bonds ? fmt::format(", {} of nested spheres", a.short_bonds) : ""));
+  say(progress,
+      fmt::format("{} spheres, mean radius {:.4g} mm; {} bonds within a range of {:.3g}, {:.2f} per sphere{}",
+                  a.particles.size, a.mean_radius * 1e3, a.bonds.size, a.range, a.coordination,
+                  a.short_bonds ? fmt::format(", {} of nested spheres", a.short_bonds) : ""));
   return a;
 }
 

@@ -32,9 +32,11 @@ void claim_run_folder(const fs::path& folder, bool force) {
       if (entry.is_regular_file(trouble) && is_ours(entry.path().lexically_relative(folder).generic_string()))
         old.push_back(entry.path());
   if (!old.empty() && !force)
-    fail<BadInput>("{}: holds results already; --force replaces them, --out names another folder", folder.string());
+    fail<BadInput>("{}: holds results already; --force replaces them, --out names another folder",
+                   folder.string());
   for (const auto& file : old)
-    if (!fs::remove(file, trouble)) fail<FileTrouble>("{}: cannot be removed: {}", file.string(), trouble.message());
+    if (!fs::remove(file, trouble))
+      fail<FileTrouble>("{}: cannot be removed: {}", file.string(), trouble.message());
   make_folder(folder);
 }
 

@@ -4,10 +4,11 @@
 
 namespace breccia {
 
-/// J. Normal: 1/2 k_n g(D_n) u_e^2 pulled, 1/2 k_n u_e^2 pressed, none broken and apart; shear: |F_s|^2/(2 k_s g(D_s)).
+/// J. Normal: 1/2 k_n g(D_n) u_e^2 pulled, 1/2 k_n u_e^2 pressed, none broken and apart; shear: |F_s|^2/(2
+/// k_s g(D_s)).
 /// @param distance  m, between the centres
-inline double stored_energy(const DempackLaw& law, const BondConstants<double>& bond, const BondHistory<double>& h,
-                            double distance, Criterion criterion) {
+inline double stored_energy(const DempackLaw& law, const BondConstants<double>& bond,
+                            const BondHistory<double>& h, double distance, Criterion criterion) {
   if (!(bond.stiffness > 0.0)) return 0.0;
   const bool broken = h.damage_normal >= 1.0 || h.damage_shear >= 1.0;
   const double elastic = distance - bond.rest_length - h.plastic_stretch;

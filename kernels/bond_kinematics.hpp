@@ -1,4 +1,5 @@
-// How the two ends of a bond or contact move against each other. MODEL section 4; Onate et al. 2015, eqs. 24-27.
+// How the two ends of a bond or contact move against each other. MODEL section 4; Onate et al. 2015, eqs.
+// 24-27.
 #pragma once
 #include "kernels/lanes.hpp"
 
@@ -40,11 +41,12 @@ inline Pair<R> relative_motion(const End<R>& lo, const End<R>& hi, double dt) {
   p.arm_ratio = p.distance / (lo.radius + hi.radius);
   Vec<R> at_contact = dv - p.rate * p.normal;
   if constexpr (rotation) {
-    // arms times spins, as mean and difference of the ends: the same bits whichever end comes first, also where the
-    // compiler fuses a product with a sum
+    // arms times spins, as mean and difference of the ends: the same bits whichever end comes first, also
+    // where the compiler fuses a product with a sum
     const Vec<R> both = lo.w + hi.w;
     const R half(0.5);
-    const Vec<R> spins = (half * p.distance) * both + (half * p.arm_ratio * (lo.radius - hi.radius)) * (lo.w - hi.w);
+    const Vec<R> spins =
+        (half * p.distance) * both + (half * p.arm_ratio * (lo.radius - hi.radius)) * (lo.w - hi.w);
     at_contact -= cross(spins, p.normal);
     p.twist = R(0.5 * dt) * dot(both, p.normal);
   }

@@ -1,5 +1,5 @@
-// Compiled once per instruction set (BRECCIA_ISA names it), each in a namespace of its own, so that no function built
-// for wide registers can be linked into code that runs without them.
+// Compiled once per instruction set (BRECCIA_ISA names it), each in a namespace of its own, so that no
+// function built for wide registers can be linked into code that runs without them.
 #include "kernels/bond_pass.hpp"
 
 #include <experimental/simd>
@@ -43,13 +43,14 @@ void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t
     const std::size_t count = last - first < ForceBlock::capacity ? last - first : ForceBlock::capacity;
     for (std::size_t k = 0; k < count; k += width) {
       const std::size_t b = first + k;
-      const Pair<Lanes> pair = relative_motion<features.rotation>(end_of<features>(in, in.row_lo.data() + b),
-                                                                  end_of<features>(in, in.row_hi.data() + b), in.dt);
+      const Pair<Lanes> pair = relative_motion<features.rotation>(
+          end_of<features>(in, in.row_lo.data() + b), end_of<features>(in, in.row_hi.data() + b), in.dt);
       BondConstants<Lanes> bond{load(in.rest_length.data() + b), load(in.area.data() + b),
                                 load(in.stiffness.data() + b), Lanes(0.0)};
       if constexpr (features.contact_damping) bond.damping = load(in.damping.data() + b);
       BondHistory<Lanes> h;
-      h.shear = {load(history.shear_x.data() + b), load(history.shear_y.data() + b), load(history.shear_z.data() + b)};
+      h.shear = {load(history.shear_x.data() + b), load(history.shear_y.data() + b),
+                 load(history.shear_z.data() + b)};
       if constexpr (features.plasticity) h.plastic_stretch = load(history.plastic_stretch.data() + b);
       if constexpr (features.breakage) {
         h.damage_normal = load(history.damage_normal.data() + b);

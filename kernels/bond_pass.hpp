@@ -1,4 +1,5 @@
-// One pass over a range of bonds: motion of the ends, law, forces. Compiled once per instruction set and feature set.
+// One pass over a range of bonds: motion of the ends, law, forces. Compiled once per instruction set and
+// feature set.
 #pragma once
 #include <cstddef>
 #include <span>

@@ -1,5 +1,5 @@
-// The feature sets that are built: each is one kernel per instruction set. A scene that asks for another one runs the
-// first of these that covers it, so they stand from the leanest to the fullest.
+// The feature sets that are built: each is one kernel per instruction set. A scene that asks for another one
+// runs the first of these that covers it, so they stand from the leanest to the fullest.
 #pragma once
 #include <array>
 

@@ -11,7 +11,8 @@ Vec3 pressed_force(const ContactPassIn& in, const ContactPassHistory& history, s
   };
   const Pair<double> pair = relative_motion<rotation>(end(i), end(j), in.dt);
   Vec3& shear = history.shear_force[c];
-  const ContactConstants contact{in.stiffness[c], in.shear_ratio, in.damping.empty() ? 0.0 : in.damping[c], in.friction};
+  const ContactConstants contact{in.stiffness[c], in.shear_ratio, in.damping.empty() ? 0.0 : in.damping[c],
+                                 in.friction};
   shear = carry<rotation>(shear, pair) + (contact.shear_ratio * contact.stiffness) * pair.slip;
   const Vec3 force = linear_contact_force(contact, history.free_length[c] - pair.distance, pair, shear);
   turn = pair.arm_ratio * cross(pair.normal, force);
@@ -20,8 +21,8 @@ Vec3 pressed_force(const ContactPassIn& in, const ContactPassHistory& history, s
 
 }  // namespace
 
-void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, std::size_t first, std::size_t last,
-                  const Scatter& to) {
+void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, std::size_t first,
+                  std::size_t last, const Scatter& to) {
   ForceBlock block;
   while (first < last) {
     const std::size_t count = last - first < ForceBlock::capacity ? last - first : ForceBlock::capacity;
@@ -32,7 +33,8 @@ void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, st
       const double reach = history.free_length[c];
       Vec3 force, turn;
       if (dot(l, l) < reach * reach) {
-        force = in.rotation ? pressed_force<true>(in, history, c, turn) : pressed_force<false>(in, history, c, turn);
+        force = in.rotation ? pressed_force<true>(in, history, c, turn)
+                            : pressed_force<false>(in, history, c, turn);
         pressed = true;
       } else {
         history.shear_force[c] = {};

@@ -23,7 +23,7 @@ struct ContactPassHistory {
   std::span<Vec3> shear_force;
 };
 
-void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, std::size_t first, std::size_t last,
-                  const Scatter& to);
+void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, std::size_t first,
+                  std::size_t last, const Scatter& to);
 
 }  // namespace breccia

@@ -1,7 +1,8 @@
-// The Dempack law of one bond: three-slope plasticity in compression, linear softening in tension and shear with
-// secant unloading, Coulomb friction after failure. Onate, Zarate, Miquel, Santasusana et al., "A local constitutive
-// model for the discrete element method. Application to geomaterials and concrete", Comput. Part. Mech. 2 (2015),
-// eqs. 21-52; every point the paper leaves open as in MODEL sections 3 and 4. Tension and elongation are positive.
+// The Dempack law of one bond: three-slope plasticity in compression, linear softening in tension and shear
+// with secant unloading, Coulomb friction after failure. Onate, Zarate, Miquel, Santasusana et al., "A local
+// constitutive model for the discrete element method. Application to geomaterials and concrete", Comput.
+// Part. Mech. 2 (2015), eqs. 21-52; every point the paper leaves open as in MODEL sections 3 and 4. Tension
+// and elongation are positive.
 #pragma once
 #include <array>
 
@@ -12,17 +13,17 @@ namespace breccia {
 
 /// Constants of the law, the same for all bonds of a material. SI.
 struct DempackLaw {
-  double young = 0;              ///< Pa; E of the bonds: k_n = E A/L
-  double shear_ratio = 0;        ///< kappa = k_s/k_n
-  double tensile_strength = 0;   ///< Pa, sigma_t
-  double shear_strength = 0;     ///< Pa, tau_f
-  double friction_static = 0;    ///< mu_1
-  double friction_dynamic = 0;   ///< mu_2
+  double young = 0;                      ///< Pa; E of the bonds: k_n = E A/L
+  double shear_ratio = 0;                ///< kappa = k_s/k_n
+  double tensile_strength = 0;           ///< Pa, sigma_t
+  double shear_strength = 0;             ///< Pa, tau_f
+  double friction_static = 0;            ///< mu_1
+  double friction_dynamic = 0;           ///< mu_2
   std::array<double, 3> limit_stress{};  ///< Pa, LCS
   std::array<double, 3> limit_strain{};  ///< compressive strain at which each limit is met
   std::array<double, 3> slope{};         ///< Pa, E/YRC beyond each limit
-  /// delta = max(0, softening + softening_length/L): the first alone for a given delta, {-1, 2 E G/strength^2} for a
-  /// given fracture energy (MODEL section 3)
+  /// delta = max(0, softening + softening_length/L): the first alone for a given delta, {-1, 2 E
+  /// G/strength^2} for a given fracture energy (MODEL section 3)
   double softening_normal = 0, softening_normal_length = 0;  ///< 1, m
   double softening_shear = 0, softening_shear_length = 0;    ///< 1, m
 };
@@ -39,13 +40,14 @@ struct BondConstants {
 /// What a bond remembers.
 template <class R>
 struct BondHistory {
-  Vec<R> shear;       ///< N, k_s times the secant shear displacement while intact, the friction force once broken
+  Vec<R> shear;  ///< N, k_s times the secant shear displacement while intact, the friction force once broken
   R plastic_stretch;  ///< m, u_p <= 0
   R damage_normal;    ///< D_n, 1 = broken in tension
   R damage_shear;     ///< D_s, 1 = broken in shear
 };
 
-/// Secant stiffness left at damage D: the force falls linearly to zero while the displacement grows by 1 + delta.
+/// Secant stiffness left at damage D: the force falls linearly to zero while the displacement grows by 1 +
+/// delta.
 template <class R>
 inline R softening(const R& damage, const R& delta) {
   return (R(1.0) - damage) / (R(1.0) + delta * damage);
@@ -80,8 +82,8 @@ inline R envelope_stress(const DempackLaw& law, const R& e) {
     return larger(R(0.0), smaller(a, R(to)) - R(from));
   };
   const auto& [e1, e2, e3] = law.limit_strain;
-  return R(law.young) * smaller(e, R(e1)) + R(law.slope[0]) * part(e, e1, e2) + R(law.slope[1]) * part(e, e2, e3) +
-         R(law.slope[2]) * larger(R(0.0), e - R(e3));
+  return R(law.young) * smaller(e, R(e1)) + R(law.slope[0]) * part(e, e1, e2) +
+         R(law.slope[1]) * part(e, e2, e3) + R(law.slope[2]) * larger(R(0.0), e - R(e3));
 }
 
 /// Puts a compressive trial above the envelope back onto it; the plastic stretch takes the rest (eqs. 50-52).
@@ -97,21 +99,22 @@ inline R plastic_stretch(const DempackLaw& law, const BondConstants<R>& bond, co
 /// Force of the spring along the normal and tangential force on lo, N.
 template <class R>
 struct BondForce {
-  R normal;       ///< tension positive, without damping
-  R damper;       ///< factor of the viscous force: 1 pressed, g(D_n) pulled, 0 broken and apart
+  R normal;  ///< tension positive, without damping
+  R damper;  ///< factor of the viscous force: 1 pressed, g(D_n) pulled, 0 broken and apart
   Vec<R> shear;
 };
 
 /// Elastic bond: no strength, no memory but the shear force.
 template <class R>
-inline BondForce<R> elastic_force(const BondConstants<R>& bond, const R& elastic_stretch, const BondHistory<R>& h) {
+inline BondForce<R> elastic_force(const BondConstants<R>& bond, const R& elastic_stretch,
+                                  const BondHistory<R>& h) {
   return {bond.stiffness * elastic_stretch, R(1.0), h.shear};
 }
 
 /// The three criteria. `h.shear` has been carried along and has had this step's k_s du added.
 template <Criterion criterion, class R>
-inline BondForce<R> breakable_force(const DempackLaw& law, const BondConstants<R>& bond, const R& elastic_stretch,
-                                    BondHistory<R>& h) {
+inline BondForce<R> breakable_force(const DempackLaw& law, const BondConstants<R>& bond,
+                                    const R& elastic_stretch, BondHistory<R>& h) {
   const R zero(0.0), one(1.0);
   R normal = bond.stiffness * elastic_stretch;
   auto broken = h.damage_normal >= one || h.damage_shear >= one;
@@ -158,8 +161,10 @@ inline BondForce<R> breakable_force(const DempackLaw& law, const BondConstants<R
   const R pressure = larger(-normal, zero);
   const R friction = R(law.friction_dynamic) * pressure;
   R strength;
-  if constexpr (criterion == Criterion::mohr_coulomb) strength = larger(zero, limit_cohesion - R(law.friction_static) * normal);
-  else strength = limit_cohesion + R(law.friction_static) * pressure;
+  if constexpr (criterion == Criterion::mohr_coulomb)
+    strength = larger(zero, limit_cohesion - R(law.friction_static) * normal);
+  else
+    strength = limit_cohesion + R(law.friction_static) * pressure;
 
   auto sheared = !broken;
   if constexpr (criterion == Criterion::coupled) sheared = sheared && !pulled;
@@ -171,16 +176,21 @@ inline BondForce<R> breakable_force(const DempackLaw& law, const BondConstants<R
     const auto grows = beyond && trial > strength * (one + delta * h.damage_shear);
     const R damage = larger(h.damage_shear, damage_at(trial / strength, delta));
     const auto fails = grows && (damage >= one || (one - damage) * strength <= friction);
-    if constexpr (criterion != Criterion::coupled) g_shear = softening(h.damage_shear, delta);
-    else g_shear = select(pulled, g_shear, softening(h.damage_shear, delta));
+    if constexpr (criterion != Criterion::coupled)
+      g_shear = softening(h.damage_shear, delta);
+    else
+      g_shear = select(pulled, g_shear, softening(h.damage_shear, delta));
     // the force that a failing bond hands over to friction is the one it carried before this step's damage
     h.shear = select(fails, g_shear * h.shear, h.shear);
-    if constexpr (criterion == Criterion::coupled) h.damage_normal = select(grows && !fails, damage, h.damage_normal);
+    if constexpr (criterion == Criterion::coupled)
+      h.damage_normal = select(grows && !fails, damage, h.damage_normal);
     h.damage_shear = select(grows, select(fails, one, damage), h.damage_shear);
     broken = broken || fails;
     const R g_after = softening(h.damage_shear, delta);
-    if constexpr (criterion == Criterion::coupled) g_shear = select(pulled, g_shear, g_after);
-    else g_shear = g_after;
+    if constexpr (criterion == Criterion::coupled)
+      g_shear = select(pulled, g_shear, g_after);
+    else
+      g_shear = g_after;
   }
 
   // --- broken: no pull, Coulomb friction
@@ -198,8 +208,8 @@ inline BondForce<R> breakable_force(const DempackLaw& law, const BondConstants<R
   return {normal, damper, g_shear * h.shear};
 }
 
-/// The whole law: advances the history of a bond and returns the force on lo, N (damping included), given the motion
-/// of its ends over the step.
+/// The whole law: advances the history of a bond and returns the force on lo, N (damping included), given the
+/// motion of its ends over the step.
 template <Features features, class R>
 inline Vec<R> dempack_force(const DempackLaw& law, const BondConstants<R>& bond, const Pair<R>& pair,
                             BondHistory<R>& h) {
@@ -211,8 +221,10 @@ inline Vec<R> dempack_force(const DempackLaw& law, const BondConstants<R>& bond,
     elastic = u - h.plastic_stretch;
   }
   BondForce<R> f;
-  if constexpr (features.breakage) f = breakable_force<features.criterion>(law, bond, elastic, h);
-  else f = elastic_force(bond, elastic, h);
+  if constexpr (features.breakage)
+    f = breakable_force<features.criterion>(law, bond, elastic, h);
+  else
+    f = elastic_force(bond, elastic, h);
 
   R total = f.normal;
   if constexpr (features.contact_damping) {

@@ -6,15 +6,24 @@
 
 namespace breccia {
 
-namespace x86_64 { extern const std::array<BondPass, built_feature_sets.size()> passes; }
-namespace x86_64_v3 { extern const std::array<BondPass, built_feature_sets.size()> passes; }
-namespace x86_64_v4 { extern const std::array<BondPass, built_feature_sets.size()> passes; }
+namespace x86_64 {
+extern const std::array<BondPass, built_feature_sets.size()> passes;
+}
+namespace x86_64_v3 {
+extern const std::array<BondPass, built_feature_sets.size()> passes;
+}
+namespace x86_64_v4 {
+extern const std::array<BondPass, built_feature_sets.size()> passes;
+}
 
 std::string_view name_of(InstructionSet set) {
   switch (set) {
-    case InstructionSet::x86_64: return "x86-64";
-    case InstructionSet::x86_64_v3: return "x86-64-v3 (AVX2)";
-    case InstructionSet::x86_64_v4: return "x86-64-v4 (AVX-512)";
+    case InstructionSet::x86_64:
+      return "x86-64";
+    case InstructionSet::x86_64_v3:
+      return "x86-64-v3 (AVX2)";
+    case InstructionSet::x86_64_v4:
+      return "x86-64-v4 (AVX-512)";
   }
   return "?";
 }
@@ -35,9 +44,12 @@ BondPass bond_pass_for(const Features& built, InstructionSet set) {
   for (std::size_t k = 0; k < built_feature_sets.size(); ++k) {
     if (!(built_feature_sets[k] == built)) continue;
     switch (set) {
-      case InstructionSet::x86_64: return x86_64::passes[k];
-      case InstructionSet::x86_64_v3: return x86_64_v3::passes[k];
-      case InstructionSet::x86_64_v4: return x86_64_v4::passes[k];
+      case InstructionSet::x86_64:
+        return x86_64::passes[k];
+      case InstructionSet::x86_64_v3:
+        return x86_64_v3::passes[k];
+      case InstructionSet::x86_64_v4:
+        return x86_64_v4::passes[k];
     }
   }
   throw std::logic_error("no bond kernel is built for these features");

@@ -16,8 +16,8 @@ struct Features {
 
   constexpr bool operator==(const Features&) const = default;
 
-  /// True when a kernel built for `this` also computes the scene `other`: a superset whose surplus can be switched off
-  /// by constants (infinite strengths and limits, no dashpot). Spins cannot.
+  /// True when a kernel built for `this` also computes the scene `other`: a superset whose surplus can be
+  /// switched off by constants (infinite strengths and limits, no dashpot). Spins cannot.
   constexpr bool covers(const Features& other) const {
     return rotation == other.rotation && (contact_damping || !other.contact_damping) &&
            (plasticity || !other.plasticity) && (breakage || !other.breakage) &&

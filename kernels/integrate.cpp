@@ -12,7 +12,8 @@ void kick_spin(const Motion& m, std::size_t row, double dt, double alpha) {
 
 }  // namespace
 
-void integrate_free(const Motion& m, std::size_t first, std::size_t last, double dt, const GlobalDamping& damping) {
+void integrate_free(const Motion& m, std::size_t first, std::size_t last, double dt,
+                    const GlobalDamping& damping) {
   for (std::size_t row = first; row < last; ++row) {
     const Vec3 force = damped(m.force[row], m.velocity[row], damping.translation);
     m.velocity[row] += (dt / m.mass[row]) * force;
@@ -22,8 +23,8 @@ void integrate_free(const Motion& m, std::size_t first, std::size_t last, double
   }
 }
 
-void integrate_held(const Motion& m, std::size_t first, std::size_t last, double dt, const GlobalDamping& damping,
-                    double platen_velocity, bool rough) {
+void integrate_held(const Motion& m, std::size_t first, std::size_t last, double dt,
+                    const GlobalDamping& damping, double platen_velocity, bool rough) {
   for (std::size_t row = first; row < last; ++row) {
     Vec3 v = m.velocity[row];
     if (rough) {

@@ -21,17 +21,19 @@ inline Vec3 damped(const Vec3& force, const Vec3& velocity, double alpha) {
 }
 
 struct Motion {
-  std::span<Vec3> position, velocity, spin;      ///< spin is empty where nothing spins
-  std::span<Vec3> force, torque;                 ///< read, then zeroed for the next step
+  std::span<Vec3> position, velocity, spin;  ///< spin is empty where nothing spins
+  std::span<Vec3> force, torque;             ///< read, then zeroed for the next step
   std::span<const double> mass, radius;
 };
 
 /// Kick and drift of rows [first, last) that move freely.
-void integrate_free(const Motion& m, std::size_t first, std::size_t last, double dt, const GlobalDamping& damping);
+void integrate_free(const Motion& m, std::size_t first, std::size_t last, double dt,
+                    const GlobalDamping& damping);
 
-/// Rows of a platen: z moves with `platen_velocity`; x and y are fixed (rough) or free (smooth); spins are free.
-void integrate_held(const Motion& m, std::size_t first, std::size_t last, double dt, const GlobalDamping& damping,
-                    double platen_velocity, bool rough);
+/// Rows of a platen: z moves with `platen_velocity`; x and y are fixed (rough) or free (smooth); spins are
+/// free.
+void integrate_held(const Motion& m, std::size_t first, std::size_t last, double dt,
+                    const GlobalDamping& damping, double platen_velocity, bool rough);
 
 /// Moment of inertia of a solid sphere, kg m^2.
 inline double sphere_inertia(double mass, double radius) { return 0.4 * mass * radius * radius; }

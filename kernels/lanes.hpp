@@ -1,5 +1,5 @@
-// The few operations a law needs that differ between one number and a wide register of them. A law is written once,
-// over a number type R: double in tests, std::experimental::simd in the production loop.
+// The few operations a law needs that differ between one number and a wide register of them. A law is written
+// once, over a number type R: double in tests, std::experimental::simd in the production loop.
 #pragma once
 #include <cmath>
 #include <type_traits>
@@ -11,8 +11,10 @@ namespace breccia {
 /// True when the condition holds in at least one lane.
 template <class Mask>
 inline bool any(const Mask& m) {
-  if constexpr (std::is_same_v<Mask, bool>) return m;
-  else return any_of(m);  // found by argument: std::experimental::any_of
+  if constexpr (std::is_same_v<Mask, bool>)
+    return m;
+  else
+    return any_of(m);  // found by argument: std::experimental::any_of
 }
 
 /// Lane by lane: m ? a : b.
@@ -32,8 +34,14 @@ inline Vec<R> select(const Mask& m, const Vec<R>& a, const Vec<R>& b) {
   return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
 }
 
-template <class R> inline R larger(const R& a, const R& b) { return select(a > b, a, b); }
-template <class R> inline R smaller(const R& a, const R& b) { return select(a < b, a, b); }
+template <class R>
+inline R larger(const R& a, const R& b) {
+  return select(a > b, a, b);
+}
+template <class R>
+inline R smaller(const R& a, const R& b) {
+  return select(a < b, a, b);
+}
 
 template <class R>
 inline R square_root(const R& a) {

@@ -1,5 +1,5 @@
-// The linear frictional contact of two surfaces that were never bonded: a spring and a dashpot that never pull,
-// Coulomb friction by radial return. MODEL section 6; Onate et al. 2015, eqs. 30, 36, 45.
+// The linear frictional contact of two surfaces that were never bonded: a spring and a dashpot that never
+// pull, Coulomb friction by radial return. MODEL section 6; Onate et al. 2015, eqs. 30, 36, 45.
 #pragma once
 #include "kernels/bond_kinematics.hpp"
 
@@ -15,7 +15,8 @@ struct ContactConstants {
 
 /// Force on lo, N, and the friction force to remember.
 /// @param overlap  m, positive where the surfaces press
-inline Vec3 linear_contact_force(const ContactConstants& contact, double overlap, const Pair<double>& pair, Vec3& shear) {
+inline Vec3 linear_contact_force(const ContactConstants& contact, double overlap, const Pair<double>& pair,
+                                 Vec3& shear) {
   const double spring = contact.stiffness * overlap;  // N, positive in compression
   const double limit = contact.friction * spring;
   const double size = norm(shear);

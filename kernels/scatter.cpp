@@ -33,8 +33,10 @@ void scatter_own(const Scatter& to, const ForceBlock& block, std::size_t first, 
 
 void scatter_atomic(const Scatter& to, const ForceBlock& block, std::size_t first, std::size_t count) {
   const auto add_to = [](std::span<Vec3> sums, Index row, const Vec3& f) {
-    if (row & shared_row) add_atomic(sums[row & ~shared_row], f);
-    else add(sums[row], f);
+    if (row & shared_row)
+      add_atomic(sums[row & ~shared_row], f);
+    else
+      add(sums[row], f);
   };
   for (std::size_t k = 0; k < count; ++k) {
     const Index lo = to.to_lo[first + k], hi = to.to_hi[first + k];
@@ -60,10 +62,15 @@ void scatter_columns(const Scatter& to, const ForceBlock& block, std::size_t fir
 void scatter(const Scatter& to, const ForceBlock& block, std::size_t first, std::size_t count) {
   switch (to.mode) {
     case ScatterMode::own:
-      to.torque.empty() ? scatter_own<false>(to, block, first, count) : scatter_own<true>(to, block, first, count);
+      to.torque.empty() ? scatter_own<false>(to, block, first, count)
+                        : scatter_own<true>(to, block, first, count);
       break;
-    case ScatterMode::atomic: scatter_atomic(to, block, first, count); break;
-    case ScatterMode::columns: scatter_columns(to, block, first, count); break;
+    case ScatterMode::atomic:
+      scatter_atomic(to, block, first, count);
+      break;
+    case ScatterMode::columns:
+      scatter_columns(to, block, first, count);
+      break;
   }
 }
 

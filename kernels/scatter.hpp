@@ -10,8 +10,8 @@ namespace breccia {
 
 using Index = std::uint32_t;
 
-/// Forces of up to 64 consecutive bonds, as the law leaves them: on lo, and the torque per metre of radius, which is
-/// the same at both ends (torque = radius * turn).
+/// Forces of up to 64 consecutive bonds, as the law leaves them: on lo, and the torque per metre of radius,
+/// which is the same at both ends (torque = radius * turn).
 struct ForceBlock {
   static constexpr std::size_t capacity = 64;
   alignas(64) double fx[capacity], fy[capacity], fz[capacity];
@@ -19,9 +19,9 @@ struct ForceBlock {
 };
 
 /// Where a range of bonds may add its forces.
-/// own:     plain adds to rows `to_lo`, `to_hi` that no other range touches (particles, or the range's own sums)
-/// atomic:  as own, but a row with the top bit set is a particle that other ranges touch too: added atomically
-/// columns: one force and turn per bond, summed later in a fixed order
+/// own:     plain adds to rows `to_lo`, `to_hi` that no other range touches (particles, or the range's own
+/// sums) atomic:  as own, but a row with the top bit set is a particle that other ranges touch too: added
+/// atomically columns: one force and turn per bond, summed later in a fixed order
 enum class ScatterMode : unsigned char { own, atomic, columns };
 
 inline constexpr Index shared_row = 0x80000000u;
