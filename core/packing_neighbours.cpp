@@ -1,8 +1,8 @@
 #include "core/packing_neighbours.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include "core/parallel.hpp"
 
 namespace breccia::packing {
 namespace {
@@ -62,7 +62,7 @@ Neighbours find_neighbours(const Body& body, std::span<const Vec3> x, std::span<
   constexpr std::size_t block = 512;
   std::vector<std::vector<Row>> found((n + block - 1) / block);
   std::vector<Row> finds(n);
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t b) {
+  for_tasks(found.size(), [&](std::size_t b) {
     for (std::size_t i = b * block; i < std::min(n, (b + 1) * block); ++i) {
       const std::size_t before = found[b].size();
       const Vec3 p = x[i];

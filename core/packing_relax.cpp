@@ -1,10 +1,9 @@
 #include "core/packing_relax.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "core/packing_neighbours.hpp"
+#include "core/parallel.hpp"
 
 namespace breccia::packing {
 namespace {
@@ -64,8 +63,8 @@ constexpr std::size_t block = 512;  // rows; sums are taken per block, then over
 
 template <class F>
 void for_blocks(std::size_t rows, F&& f) {
-  tbb::parallel_for(std::size_t{0}, (rows + block - 1) / block,
-                    [&](std::size_t b) { f(b, b * block, std::min(rows, (b + 1) * block)); });
+  for_tasks((rows + block - 1) / block,
+            [&](std::size_t b) { f(b, b * block, std::min(rows, (b + 1) * block)); });
 }
 
 Sums forces(const Body& body, double cohesion, std::span<const double> r, std::span<const Vec3> x, State& s) {

@@ -16,29 +16,34 @@ void __tsan_release(void*);
 
 namespace breccia {
 
-/// Calls work(range) for range = 0 ... ranges - 1, on as many threads; returns when all are done.
-template <class Work>
-void for_ranges(int ranges, const Work& work) {
-  if (ranges <= 1) {
-    work(0);
-    return;
-  }
+/// Calls work(k) for k = 0 ... tasks - 1, in any order on TBB's threads; returns when all are done.
+template <class Index, class Work, class Partitioner = tbb::auto_partitioner>
+void for_tasks(Index tasks, const Work& work, const Partitioner& partitioner = {}) {
 #if defined(__SANITIZE_THREAD__)
   // Debian's TBB is not instrumented: the thread sanitizer is told of its fork and join
   char fork = 0, join = 0;
   __tsan_release(&fork);
   tbb::parallel_for(
-      0, ranges, 1,
-      [&](int range) {
+      Index{0}, tasks, Index{1},
+      [&](Index k) {
         __tsan_acquire(&fork);
-        work(range);
+        work(k);
         __tsan_release(&join);
       },
-      tbb::simple_partitioner{});
+      partitioner);
   __tsan_acquire(&join);
 #else
-  tbb::parallel_for(0, ranges, 1, work, tbb::simple_partitioner{});
+  tbb::parallel_for(Index{0}, tasks, Index{1}, work, partitioner);
 #endif
+}
+
+/// Calls work(range) for range = 0 ... ranges - 1, on as many threads.
+template <class Work>
+void for_ranges(int ranges, const Work& work) {
+  if (ranges <= 1)
+    work(0);
+  else
+    for_tasks(ranges, work, tbb::simple_partitioner{});
 }
 
 /// First row of a range when `rows` are cut into `ranges` parts that are multiples of `batch` but for the

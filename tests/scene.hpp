@@ -2,6 +2,7 @@
 // packings, and the whole state of a world handed over to the reference.
 #pragma once
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <set>
 #include <vector>
@@ -104,11 +105,16 @@ inline const Body& small_cylinder() {
   return body;
 }
 
-inline Specimen small_packing(std::size_t spheres, std::uint64_t seed = 1) {
-  PackRequest r;
-  r.spheres = spheres;
-  r.seed = seed;
-  return pack_spheres(small_cylinder(), r);
+/// Packed once, with seed 1.
+inline const Specimen& small_packing(std::size_t spheres) {
+  static std::map<std::size_t, Specimen> made;
+  const auto [at, is_new] = made.try_emplace(spheres);
+  if (is_new) {
+    PackRequest r;
+    r.spheres = spheres;
+    at->second = pack_spheres(small_cylinder(), r);
+  }
+  return at->second;
 }
 
 /// The same scene for the reference, at step 0 of a world; rows are the same.

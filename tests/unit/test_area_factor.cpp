@@ -51,14 +51,16 @@ TEST_CASE("area factor: affine value alpha T (2 + 3 kappa)/(4 + kappa) = 1, T su
   CHECK(measure(f).young_modulus == doctest::Approx(28e9).epsilon(0.15));
 }
 
-TEST_CASE("area factor: matched has the E and nu asked for, automatic the E, as a second probe finds [1 %]") {
-  for (const double nu : {0.15, 0.2}) {
+TEST_CASE("area factor: matched has the E and nu asked for, automatic the E, as a second probe finds [E 1 %, nu 0.25 %]") {
+  int most = 0;
+  for (const double nu : {0.05, 0.1, 0.2}) {
     const AreaFactor f = find_area_factor(packing(), request(AlphaRule::automatic, Elasticity::matched, nu), 2);
     const ElasticResponse r = measure(f);
     CHECK(r.young_modulus == doctest::Approx(28e9).epsilon(0.01));
-    CHECK(r.poisson_ratio == doctest::Approx(nu).epsilon(0.01));
-    CHECK(f.probes >= 1);
+    CHECK(r.poisson_ratio == doctest::Approx(nu).epsilon(0.0025));  // the search stops at 0.2 %
+    most = std::max(most, f.probes);
   }
+  CHECK(most >= 2);  // somewhere the affine guess was not good enough
   const AreaFactor paper = find_area_factor(packing(), request(AlphaRule::automatic), 2);
   CHECK(paper.shear_ratio == doctest::Approx(1 / 2.4).epsilon(1e-14));
   const ElasticResponse r = measure(paper);

@@ -333,6 +333,21 @@ TEST_CASE("dempack/shear: a stronger pressure reloads with the secant stiffness 
   hold<uncoupled>(p, claims);
 }
 
+TEST_CASE("dempack/shear: a failing bond hands friction no more than it carried: |F| := min(|F|, R) [MODEL 4, 1e-12]") {
+  Parameters p;
+  p.delta_s = 1.0;
+  p.mu1 = 0.1;
+  p.mu2 = 2;
+  std::vector<Claim> claims;
+  for (const Bond& b : several_bonds(p)) {
+    // D = 1/2, g = 1/3; then pressed with N = tau_f A and sheared on at once: S = 1.1, R = 2, trial 1.8 g = 0.6
+    const double S = p.tau_f * b.area, u = -S / b.k_n, y = S / b.k_s;
+    claims.push_back({"handed over", b, {{0, 1.5 * y}, {u, 1.8 * y}, {u, 2.0 * y}, {u, 9.0 * y}},
+                      {{0, 0.5 * S, 0}, {-S, 0.6 * S, 0}, {-S, 0.8 * S, 0}, {-S, 2 * S, 0}}, S});
+  }
+  hold<uncoupled>(p, claims);
+}
+
 TEST_CASE("dempack/law: uncoupled, tension and shear know nothing of each other until one breaks [MODEL 4, 1e-12]") {
   const Parameters p;
   std::vector<Claim> claims;
