@@ -20,17 +20,16 @@ namespace breccia {
 template <class Index, class Work, class Partitioner = tbb::auto_partitioner>
 void for_tasks(Index tasks, const Work& work, const Partitioner& partitioner = {}) {
 #if defined(__SANITIZE_THREAD__)
-  // Debian's TBB is not instrumented: the thread sanitizer is told of its fork and join
-  char fork = 0, join = 0;
+  // Debian's TBB is not instrumented: the thread sanitizer is told of its fork and join. Statics, and the task made
+  // before the fork: nothing of the task may be read before it has said that it has begun
+  static char fork = 0, join = 0;
+  const auto task = [&work](Index k) {
+    __tsan_acquire(&fork);
+    work(k);
+    __tsan_release(&join);
+  };
   __tsan_release(&fork);
-  tbb::parallel_for(
-      Index{0}, tasks, Index{1},
-      [&](Index k) {
-        __tsan_acquire(&fork);
-        work(k);
-        __tsan_release(&join);
-      },
-      partitioner);
+  tbb::parallel_for(Index{0}, tasks, Index{1}, task, partitioner);
   __tsan_acquire(&join);
 #else
   tbb::parallel_for(Index{0}, tasks, Index{1}, work, partitioner);

@@ -33,7 +33,7 @@ struct World {
   DempackLaw law;
   Features features;  ///< that run: those asked for, or the nearest superset that is built
   double alpha = 1;
-  double critical_dt = 0;  ///< s, proven bound
+  double critical_dt = 0;  ///< s, see critical_time_step
   double dt = 0;           ///< s
   double time = 0;         ///< s
   std::uint64_t step = 0;
