@@ -16,7 +16,8 @@ namespace breccia {
   COLUMN(Row,    row_lo,          "1",     scratch,   always,          "row of the end gid_lo")                       \
   COLUMN(Row,    row_hi,          "1",     scratch,   always,          "row of the end gid_hi")                       \
   COLUMN(double, rest_length,     "m",     reference, always,          "centre distance when bonded; free of stress") \
-  COLUMN(double, area,            "m^2",   reference, always,          "alpha pi min(r_lo, r_hi)^2")                  \
+  COLUMN(double, area,            "m^2",   reference, always,          "alpha times that of the area rule, minimum: pi min(r_lo, r_hi)^2") \
+  COLUMN(double, strength_area,   "m^2",   reference, strength_area,   "that strengths stand on, where it is another one") \
   COLUMN(double, stiffness,       "N/m",   reference, always,          "k_n = E area/rest_length")                    \
   COLUMN(double, damping,         "N s/m", reference, contact_damping, "c_n = 2 xi sqrt(m_lo m_hi k_n/(m_lo + m_hi))") \
   COLUMN(double, shear_x,         "N",     history,   always,          "on lo, along x: k_s times the secant shear displacement while intact, the friction force once broken") \
@@ -24,12 +25,18 @@ namespace breccia {
   COLUMN(double, shear_z,         "N",     history,   always,          "the same along z")                            \
   COLUMN(double, plastic_stretch, "m",     history,   plasticity,      "elongation at which the bond is free of force, <= 0") \
   COLUMN(double, damage_normal,   "1",     history,   breakage,        "D_n: 0 intact, 1 broken in tension")          \
-  COLUMN(double, damage_shear,    "1",     history,   breakage,        "D_s: 0 intact, 1 broken in shear")
+  COLUMN(double, damage_shear,    "1",     history,   breakage,        "D_s: 0 intact, 1 broken in shear")            \
+  COLUMN(double, failure_state,   "1",     derived,   stress,          "max(F_s/S, u_e/u_nf), 1 = broken (Santasusana, eq. 5.21)")
 // clang-format on
 
 struct BondTable {
   BRECCIA_TABLE(BRECCIA_BOND_COLUMNS)
 };
+
+/// The areas that strengths stand on.
+inline const std::vector<double>& strength_areas(const BondTable& bonds) {
+  return bonds.strength_area.empty() ? bonds.area : bonds.strength_area;
+}
 
 /// What became of a bond, as written to results: 0 intact, 1 broken in tension, 2 broken in shear.
 enum class BondState : std::uint8_t { intact = 0, broken_tension = 1, broken_shear = 2 };

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/mantle_area.hpp"
+
 namespace breccia {
 
 Platens make_platens(const Assembly& a, const ParticleTable& particles, bool rough, double young_modulus) {
   Platens p;
   p.rough = rough;
-  p.section = a.section();
+  p.section = a.load_section();
   double specimen_mass = 0.0;
   for (std::size_t row = 0; row < particles.size; ++row) {
     specimen_mass += particles.mass[row];
@@ -18,46 +20,84 @@ Platens make_platens(const Assembly& a, const ParticleTable& particles, bool rou
   }
   // the axial wave impedance of the specimen: critical for half its mass on half its stiffness, and a wave
   // that reaches the platen is swallowed instead of sent back
-  p.dashpot = p.section * std::sqrt(young_modulus * specimen_mass / a.volume());
+  p.dashpot = a.section() * std::sqrt(young_modulus * specimen_mass / a.volume());
   return p;
 }
 
 void drive_platens(Platens& platens, const ParticleTable& particles, std::size_t first_top, double dt) {
-  std::array<double, 2> force{};
-  for (std::size_t row = particles.free; row < first_top; ++row) force[0] += particles.force[row].z;
-  for (std::size_t row = first_top; row < particles.size; ++row) force[1] += particles.force[row].z;
-  platens.stress = {-force[0] / platens.section, force[1] / platens.section};
-  if (platens.servo)
-    for (const int end : {0, 1}) {
-      const double inward = end == 0 ? 1.0 : -1.0;
-      const double speed = inward * platens.velocity[static_cast<std::size_t>(end)];
-      const auto k = static_cast<std::size_t>(end);
-      const double push = (platens.pressure - platens.stress[k]) * platens.section;
+  platens.force = {};
+  for (std::size_t row = particles.free; row < first_top; ++row) platens.force[0] += particles.force[row];
+  for (std::size_t row = first_top; row < particles.size; ++row) platens.force[1] += particles.force[row];
+  for (const std::size_t k : {0u, 1u}) {
+    Vec3& velocity = platens.velocity[k];
+    if (platens.servo) {
+      const double inward = k == 0 ? 1.0 : -1.0;
+      const double push = platens.pressure * platens.section + inward * platens.force[k].z;
       // dashpot taken at the end of the step, so that no layer is too light for it
-      const double next =
-          (speed + dt * push / platens.mass[k]) / (1.0 + dt * platens.dashpot / platens.mass[k]);
-      platens.velocity[k] = inward * next;
+      velocity.z = inward * (inward * velocity.z + dt * push / platens.mass[k]) /
+                   (1.0 + dt * platens.dashpot / platens.mass[k]);
     }
-  platens.travel[0] += dt * platens.velocity[0];
-  platens.travel[1] -= dt * platens.velocity[1];
+    platens.travel[k] += dt * velocity;
+  }
 }
 
-Confinement make_confinement(const Assembly& a) {
+Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid) {
   Confinement c;
+  c.rigid = rigid;
+  c.plane = a.space == Space::plane;
   c.rows = a.skin;
-  double sum = 0.0;
+  c.surface = a.mantle();
+  c.force.resize(c.rows.size());
+  if (weights == SkinWeights::voronoi) {
+    c.weight = mantle_areas(a.particles, c.rows, a.body);
+    return c;
+  }
   for (const Row row : c.rows) {
     const double r = a.particles.radius[row];
-    c.weight.push_back(std::numbers::pi * r * r);
-    sum += c.weight.back();
+    c.weight.push_back(c.plane ? 2.0 * r : std::numbers::pi * r * r);
   }
-  for (double& w : c.weight) w *= a.mantle() / sum;
-  c.force.resize(c.rows.size());
+  // each side of a rectangle, or the whole mantle, has its nominal surface
+  const auto scale = [&](auto belongs, double surface) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < c.rows.size(); ++k)
+      if (belongs(a.particles.position[c.rows[k]])) sum += c.weight[k];
+    for (std::size_t k = 0; k < c.rows.size(); ++k)
+      if (belongs(a.particles.position[c.rows[k]])) c.weight[k] *= surface / sum;
+  };
+  if (!c.plane) {
+    scale([](const Vec3&) { return true; }, c.surface);
+  } else {
+    scale([](const Vec3& x) { return x.x < 0.0; }, 0.5 * c.surface);
+    scale([](const Vec3& x) { return !(x.x < 0.0); }, 0.5 * c.surface);
+  }
   return c;
 }
 
+namespace {
+
+/// Two dimensions: pressure along x on both sides; the smallest a + b z along x removes the net force and the
+/// moment about y.
+void press_sides(Confinement& c, ParticleTable& particles) {
+  double n = 0.0, z1 = 0.0, z2 = 0.0, net = 0.0, tilt = 0.0;
+  for (std::size_t k = 0; k < c.rows.size(); ++k) {
+    const Vec3& x = particles.position[c.rows[k]];
+    c.force[k] = {(x.x < 0.0 ? 1.0 : -1.0) * c.pressure * c.weight[k], 0.0, 0.0};
+    net += c.force[k].x, tilt += x.z * c.force[k].x;
+    n += 1.0, z1 += x.z, z2 += x.z * x.z;
+  }
+  const double det = n * z2 - z1 * z1;
+  const double a = (net * z2 - tilt * z1) / det, b = (n * tilt - z1 * net) / det;
+  for (std::size_t k = 0; k < c.rows.size(); ++k) {
+    c.force[k].x -= a + b * particles.position[c.rows[k]].z;
+    particles.force[c.rows[k]] += c.force[k];
+  }
+}
+
+}  // namespace
+
 void press_skin(Confinement& c, ParticleTable& particles) {
-  if (c.pressure == 0.0) return;
+  if (c.rigid || c.pressure == 0.0) return;
+  if (c.plane) return press_sides(c, particles);
   // radial forces leave a net force and moments about x and y: the smallest horizontal correction a + b z + c
   // (-y, x) that removes them and makes no moment about z
   double n = 0.0, x1 = 0.0, y1 = 0.0, z1 = 0.0, z2 = 0.0, xz = 0.0, yz = 0.0, r2 = 0.0;
@@ -87,6 +127,19 @@ void press_skin(Confinement& c, ParticleTable& particles) {
     c.force[k] -= Vec3{by[0] + by[2] * x.z - by[4] * x.y, by[1] + by[3] * x.z + by[4] * x.x, 0.0};
     particles.force[c.rows[k]] += c.force[k];
   }
+}
+
+void hold_skin(Confinement& c, ParticleTable& particles) {
+  if (!c.rigid) return;
+  double outward = 0.0;
+  for (std::size_t k = 0; k < c.rows.size(); ++k) {
+    const Vec3& x = particles.position[c.rows[k]];
+    Vec3& force = particles.force[c.rows[k]];
+    outward += (x.x * force.x + x.y * force.y) / std::hypot(x.x, x.y);
+    c.force[k] = {-force.x, -force.y, 0.0};
+    force.x = force.y = 0.0;
+  }
+  c.pressure = outward / c.surface;
 }
 
 }  // namespace breccia

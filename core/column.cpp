@@ -12,6 +12,8 @@ std::string_view name_of(Role role) {
       return "history";
     case Role::state:
       return "state";
+    case Role::derived:
+      return "derived";
     case Role::scratch:
       return "scratch";
   }
@@ -30,6 +32,10 @@ std::string_view name_of(Need need) {
       return "plasticity";
     case Need::breakage:
       return "breakage";
+    case Need::strength_area:
+      return "strength area of its own";
+    case Need::stress:
+      return "stress output";
   }
   return "?";
 }

@@ -12,11 +12,12 @@ namespace breccia {
 using Gid = std::uint64_t;  ///< global id of a particle, as in the specimen's file
 using Row = std::uint32_t;  ///< row of a table on this rank
 
-/// What a column is for. Identity, reference, history and state are saved and sent; scratch never is.
-enum class Role { identity, reference, history, state, scratch };
+/// What a column is for. Identity, reference, history and state are saved and sent; derived is worked out for output; scratch is
+/// neither.
+enum class Role { identity, reference, history, state, derived, scratch };
 
 /// The feature of the scene without which a column has no storage.
-enum class Need { always, rotation, contact_damping, plasticity, breakage };
+enum class Need { always, rotation, contact_damping, plasticity, breakage, strength_area, stress };
 
 struct ColumnInfo {
   std::string_view type, name, unit;

@@ -120,7 +120,8 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
     contacts.gid_hi[k] = p.gid[hi];
     contacts.row_lo[k] = lo;
     contacts.row_hi[k] = hi;
-    contacts.stiffness[k] = material.young * material.alpha * pi * smaller * smaller / touch;
+    contacts.stiffness[k] = material.young * material.alpha *
+                            (material.space == Space::plane ? 2.0 * smaller : pi * smaller * smaller) / touch;
     if (features.contact_damping)
       contacts.damping[k] =
           2.0 * material.damping *

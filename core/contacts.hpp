@@ -35,6 +35,7 @@ struct ContactMaterial {
   double young = 0;    ///< Pa
   double alpha = 0;    ///< area factor, as of the bonds
   double damping = 0;  ///< xi
+  Space space = Space::solid;
 };
 
 /// Makes the list of candidates anew; pairs that were in contact keep their history.

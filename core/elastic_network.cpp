@@ -98,12 +98,23 @@ Eigen::VectorXd stiffness_diagonal(const ElasticNetwork& net) {
 
 }  // namespace
 
-ElasticResponse probe(const Assembly& a, double young, double shear_ratio, bool rough, int threads) {
+std::vector<double> bond_stiffness(const BondLaw& law, const ParticleTable& p, const BondTable& b) {
+  std::vector<double> k_n(b.size);
+  std::visit(
+      [&](const auto& l) {
+        for (std::size_t k = 0; k < b.size; ++k)
+          k_n[k] = stiffness_of(
+              l, b.area[k], strain_length_of(b.rest_length[k], p.radius[b.row_lo[k]] + p.radius[b.row_hi[k]]));
+      },
+      law);
+  return k_n;
+}
+
+ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, double shear_ratio, bool rough,
+                      int threads) {
   const ParticleTable& p = a.particles;
-  const ElasticNetwork net = elastic_network(p, a.bonds, !p.spin.empty(), threads, [&](std::size_t k) {
-    const double radii = p.radius[a.bonds.row_lo[k]] + p.radius[a.bonds.row_hi[k]];
-    const double k_n = young * a.bonds.area[k] / strain_length_of(a.bonds.rest_length[k], radii);
-    return SpringConstants{k_n, shear_ratio * k_n};
+  const ElasticNetwork net = elastic_network(p, a.bonds, a.rotation, threads, [&](std::size_t k) {
+    return SpringConstants{stiffness[k], shear_ratio * stiffness[k]};
   });
   const auto n = static_cast<Eigen::Index>(6 * net.particles);
   Eigen::VectorXd inverse_diagonal = stiffness_diagonal(net);
@@ -116,6 +127,8 @@ ElasticResponse probe(const Assembly& a, double young, double shear_ratio, bool 
     inverse_diagonal[at + 2] = 0.0;  // prescribed: neither moved nor balanced
     if (rough) inverse_diagonal[at] = inverse_diagonal[at + 1] = 0.0;
   }
+  if (a.space == Space::plane)
+    for (Eigen::Index at = 0; at < n; at += 6) inverse_diagonal[at + 1] = inverse_diagonal[at + 3] = inverse_diagonal[at + 5] = 0.0;
   // the affine field is a good first guess
   for (std::size_t row = 0; row < a.particles.free; ++row)
     u[static_cast<Eigen::Index>(6 * row + 2)] =
@@ -157,10 +170,11 @@ ElasticResponse probe(const Assembly& a, double young, double shear_ratio, bool 
       sum += dot(g.weights[k], three(u, 6 * std::size_t{g.rows[k]}));
     return sum;
   };
-  const double axial = strain(axial_gauge(a)), radial = strain(radial_gauge(a));
+  const double axial = strain(axial_gauge(a)), radial = strain(lateral_gauge(a));
   answer.young_modulus = reaction / a.section() / axial;
   answer.poisson_ratio = -radial / axial;
-  if (!(answer.young_modulus > 1e-6 * young))
+  const double scale = *std::max_element(stiffness.begin(), stiffness.end()) / a.mean_radius;
+  if (!(answer.young_modulus > 1e-6 * scale))
     fail<BadInput>("bonds.range: the bonds do not connect the two ends of the specimen; widen the range");
   return answer;
 }

@@ -20,20 +20,29 @@ Gauge axial_gauge(const Assembly& a) {
   return g;
 }
 
-Gauge radial_gauge(const Assembly& a) {
+Gauge lateral_gauge(const Assembly& a) {
   Gauge g;
   const auto& x = a.particles.reference_position;
+  const bool x_only = a.body.on_edge || a.space == Space::plane;
   Vec3 mean;
-  for (const Row row : a.skin)
-    if (std::abs(x[row].z) < 0.2 * a.body.height) {
-      g.rows.push_back(row);
-      mean += x[row];
-    }
+  const auto add = [&](Row row) {
+    if (std::abs(x[row].z) >= 0.2 * a.length()) return;
+    g.rows.push_back(row);
+    mean += x[row];
+  };
+  if (a.body.on_edge)
+    for (Row row = 0; row < x.size(); ++row) add(row);
+  else
+    for (const Row row : a.skin) add(row);
+  if (g.rows.empty()) return g;
   mean = (1.0 / static_cast<double>(g.rows.size())) * mean;
+  if (x_only) mean.y = 0.0;
+  const auto lever = [&](Row row) {
+    return Vec3{x[row].x - mean.x, x_only ? 0.0 : x[row].y - mean.y, 0.0};
+  };
   double square = 0.0;
-  for (const Row row : g.rows) square += std::pow(x[row].x - mean.x, 2) + std::pow(x[row].y - mean.y, 2);
-  for (const Row row : g.rows)
-    g.weights.push_back({-(x[row].x - mean.x) / square, -(x[row].y - mean.y) / square, 0.0});
+  for (const Row row : g.rows) square += dot(lever(row), lever(row));
+  for (const Row row : g.rows) g.weights.push_back((-1.0 / square) * lever(row));
   return g;
 }
 

@@ -18,7 +18,9 @@ namespace breccia {
   COLUMN(Vec3,   velocity,           "m/s",    state,     always,   "of the centre, half a step before position")     \
   COLUMN(Vec3,   spin,               "1/s",    state,     rotation, "angular velocity, half a step before position")  \
   COLUMN(Vec3,   force,              "N",      scratch,   always,   "sum of the contact and boundary forces")         \
-  COLUMN(Vec3,   torque,             "N m",    scratch,   rotation, "sum of the contact torques")
+  COLUMN(Vec3,   torque,             "N m",    scratch,   rotation, "sum of the contact torques")                      \
+  COLUMN(Vec3,   stress_normal,      "Pa",     derived,   stress,   "xx, yy, zz of the mean stress in the particle's share of the volume, tension positive") \
+  COLUMN(Vec3,   stress_shear,       "Pa",     derived,   stress,   "yz, zx, xy of the same")
 // clang-format on
 
 struct ParticleTable {

@@ -10,6 +10,7 @@ CurveRow mean_of(const CurveRow& a, const CurveRow& b) {
   m.platen_strain = 0.5 * (a.platen_strain + b.platen_strain);
   m.axial_stress_Pa = 0.5 * (a.axial_stress_Pa + b.axial_stress_Pa);
   m.radial_strain = 0.5 * (a.radial_strain + b.radial_strain);
+  m.confining_stress_Pa = 0.5 * (a.confining_stress_Pa + b.confining_stress_Pa);
   m.volumetric_strain = 0.5 * (a.volumetric_strain + b.volumetric_strain);
   return m;
 }
@@ -31,7 +32,9 @@ bool add_reading(Recorder& r, const Reading& x) {
   r.sum.axial_strain += x.axial_strain;
   r.sum.platen_strain += x.platen_strain;
   r.sum.axial_stress += x.axial_stress;
+  r.sum.confining_stress += x.confining_stress;
   r.sum.radial_strain += x.radial_strain;
+  r.sum.volumetric_strain += x.volumetric_strain;
   r.sum.mismatch += x.mismatch;
   return ++r.steps >= r.steps_per_row;
 }
@@ -43,7 +46,8 @@ const CurveRow& close_row(Recorder& r, CurveRow end) {
   end.platen_strain = one * r.sum.platen_strain;
   end.axial_stress_Pa = one * r.sum.axial_stress;
   end.radial_strain = one * r.sum.radial_strain;
-  end.volumetric_strain = end.axial_strain + 2.0 * end.radial_strain;
+  end.confining_stress_Pa = one * r.sum.confining_stress;
+  end.volumetric_strain = one * r.sum.volumetric_strain;
   r.mismatch.push_back(one * r.sum.mismatch);
   r.rows.push_back(end);
   r.sum = {};

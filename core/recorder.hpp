@@ -9,7 +9,8 @@ namespace breccia {
 
 /// What is read at every step.
 struct Reading {
-  double time = 0, axial_strain = 0, platen_strain = 0, axial_stress = 0, radial_strain = 0, mismatch = 0;
+  double time = 0, axial_strain = 0, platen_strain = 0, axial_stress = 0, confining_stress = 0,
+         radial_strain = 0, volumetric_strain = 0, mismatch = 0;
 };
 
 struct Recorder {
@@ -25,7 +26,7 @@ struct Recorder {
 /// Adds a step; true when a row is due.
 bool add_reading(Recorder& recorder, const Reading& reading);
 
-/// Closes the row: means of the readings, and what is known at its end (broken bonds, energies, pressure)
+/// Closes the row: means of the readings, and what is known at its end (broken bonds, energies)
 /// from `end`.
 const CurveRow& close_row(Recorder& recorder, CurveRow end);
 

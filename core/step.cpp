@@ -11,7 +11,7 @@ namespace {
 void search_if_due(World& w) {
   const Lap lap(w.phases, Phase::search);
   if (!search_is_due(w.search, w.particles, w.step, w.dt, w.options.threads)) return;
-  const ContactMaterial material{w.material.young_modulus, w.alpha, w.options.contact_damping};
+  const ContactMaterial material{w.material.young_modulus, w.alpha, w.options.contact_damping, w.space};
   renew_contacts(w.search, w.contacts, w.particles, material, w.features, w.options.threads);
   w.contact_plan = plan_scatter(w.options.scatter, w.options.threads, 1, w.contacts.row_lo, w.contacts.row_hi,
                                 w.contacts.gid_lo, w.contacts.gid_hi, w.particles.size, w.features.rotation);
@@ -27,13 +27,15 @@ void bond_forces(World& w) {
   ParticleTable& p = w.particles;
   BondTable& b = w.bonds;
   const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, p);
-  const BondPassIn in{w.dt,     w.law,    p.position,    p.velocity, p.spin,      p.radius,
-                      b.row_lo, b.row_hi, b.rest_length, b.area,     b.stiffness, b.damping};
+  const BondPassIn in{w.dt,     constants_of(w.law), p.position, p.velocity,        p.spin,      p.radius, b.row_lo,
+                      b.row_hi, b.rest_length,       b.area,     strength_areas(b), b.stiffness, b.damping};
   const BondPassHistory history{b.shear_x,         b.shear_y,       b.shear_z,
                                 b.plastic_stretch, b.damage_normal, b.damage_shear};
   for_ranges(w.bond_plan.ranges, [&](int range) {
-    w.bond_pass(in, history, w.bond_plan.first(range), w.bond_plan.first(range + 1), to);
+    w.bond_pass(in, history, w.bond_plan.first(range), w.bond_plan.first(range + 1), to,
+                notes_of(w.cracks, range));
   });
+  record_cracks(w.cracks, w.law, w.features.criterion == Criterion::coupled, w.time, w.dt, p, b);
 }
 
 void contact_forces(World& w) {
@@ -43,8 +45,8 @@ void contact_forces(World& w) {
   ContactTable& c = w.contacts;
   const Scatter to = scatter_view(w.contact_plan, c.row_lo, c.row_hi, p);
   const ContactPassIn in{w.dt,
-                         w.law.shear_ratio,
-                         w.law.friction_dynamic,
+                         w.shear_ratio,
+                         w.friction,
                          w.features.rotation,
                          p.position,
                          p.velocity,
@@ -66,6 +68,11 @@ void gather_bond_forces(World& w) {
   collect(w.bond_plan, w.particles, w.options.threads);
 }
 
+void hold_skin(World& w) {
+  const Lap lap(w.phases, Phase::confinement);
+  hold_skin(w.confinement, w.particles);
+}
+
 void move_platens(World& w) {
   const Lap lap(w.phases, Phase::platens);
   drive_platens(w.platens, w.particles, w.first_top, w.dt);
@@ -74,12 +81,15 @@ void move_platens(World& w) {
 void integrate(World& w) {
   const Lap lap(w.phases, Phase::integrate);
   ParticleTable& p = w.particles;
-  const Motion motion{p.position, p.velocity, p.spin, p.force, p.torque, p.mass, p.radius};
+  const Motion motion{p.position, p.velocity, p.spin,   p.force,         p.torque,
+                      p.mass,     p.radius,   inertia_factor(w), w.options.features.rotation};
   const GlobalDamping& damping = w.options.global_damping;
   for_rows(p.free, w.options.threads,
            [&](std::size_t first, std::size_t last) { integrate_free(motion, first, last, w.dt, damping); });
-  integrate_held(motion, p.free, w.first_top, w.dt, damping, w.platens.velocity[0], w.platens.rough);
-  integrate_held(motion, w.first_top, p.size, w.dt, damping, w.platens.velocity[1], w.platens.rough);
+  integrate_held(motion, p.free, w.first_top, w.dt, damping,
+                 {w.platens.velocity[0], !w.platens.rough});
+  integrate_held(motion, w.first_top, p.size, w.dt, damping,
+                 {w.platens.velocity[1], !w.platens.rough});
 }
 
 }  // namespace
@@ -90,6 +100,7 @@ void advance(World& w) {
   bond_forces(w);
   gather_bond_forces(w);
   contact_forces(w);
+  hold_skin(w);
   move_platens(w);
   integrate(w);
   w.time += w.dt;

@@ -94,4 +94,78 @@ std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement,
   return fit;
 }
 
+
+std::vector<CycleSummary> read_cycles(std::span<const CurveRow> rows,
+                                      std::span<const std::pair<double, double>> times) {
+  std::vector<CycleSummary> cycles;
+  const auto strain = [](const CurveRow& r) { return r.axial_strain; };
+  for (const auto& [unloaded, reloaded] : times) {
+    const auto at = [&](double time) {
+      std::size_t k = 0;
+      while (k + 1 < rows.size() && rows[k].time_s < time) ++k;
+      return k;
+    };
+    if (!(reloaded > unloaded)) continue;  // the run ended while it was unloading
+    const std::size_t top = at(unloaded), bottom = at(reloaded);
+    const double load = deviator(rows[top]);
+    std::size_t end = bottom;
+    while (end + 1 < rows.size() && deviator(rows[end]) < load && rows[end].axial_strain < rows[top].axial_strain) ++end;
+    const auto between = [&](std::size_t first, std::size_t last) {
+      std::vector<CurveRow> part;
+      for (std::size_t k = first; k <= last; ++k)
+        if (deviator(rows[k]) < 0.9 * load && deviator(rows[k]) > 0.3 * load) part.push_back(rows[k]);
+      return part;
+    };
+    const std::vector<CurveRow> down = between(top, bottom), up = between(bottom, end);
+    const auto unloading = slope(std::span<const CurveRow>(down), strain, deviator);
+    const auto reloading = slope(std::span<const CurveRow>(up), strain, deviator);
+    if (!unloading || !reloading) continue;
+    double mean_strain = 0, mean_deviator = 0;
+    for (const CurveRow& r : down) mean_strain += r.axial_strain, mean_deviator += deviator(r);
+    const double one = 1.0 / static_cast<double>(down.size());
+    cycles.push_back({rows[top].axial_strain, one * (mean_strain - mean_deviator / *unloading), *unloading, *reloading});
+  }
+  return cycles;
+}
+
+std::optional<double> stress_at_first_drop(std::span<const CurveRow> rows, double fraction) {
+  double most = 0;
+  for (const CurveRow& r : rows) {
+    if (r.axial_stress_Pa < (1.0 - fraction) * most && most > 0) return most;
+    most = std::max(most, r.axial_stress_Pa);
+  }
+  return {};
+}
+
+std::optional<double> bulk_modulus(std::span<const CurveRow> rows) {
+  if (rows.empty()) return {};
+  std::vector<CurveRow> part;
+  const double last = rows.back().confining_stress_Pa;
+  for (const CurveRow& r : rows)
+    if (r.confining_stress_Pa > 0.05 * last && r.confining_stress_Pa < 0.25 * last) part.push_back(r);
+  return slope(
+      std::span<const CurveRow>(part), [](const CurveRow& r) { return r.volumetric_strain; },
+      [](const CurveRow& r) { return (r.axial_stress_Pa + 2.0 * r.confining_stress_Pa) / 3.0; });
+}
+
+std::optional<MohrCoulomb> fit_shear_line(std::span<const double> normal_stress, std::span<const double> strength) {
+  const std::size_t n = normal_stress.size();
+  double mx = 0, my = 0, xx = 0, xy = 0;
+  for (std::size_t k = 0; k < n; ++k) mx += normal_stress[k] / double(n), my += strength[k] / double(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    xx += (normal_stress[k] - mx) * (normal_stress[k] - mx);
+    xy += (normal_stress[k] - mx) * (strength[k] - my);
+  }
+  if (n < 2 || !(xx > 0)) return {};
+  MohrCoulomb line;
+  line.friction_angle_deg = std::atan(xy / xx) * 180.0 / std::numbers::pi;
+  line.cohesion_Pa = my - xy / xx * mx;
+  double square = 0;
+  for (std::size_t k = 0; k < n; ++k)
+    square += std::pow(strength[k] - line.cohesion_Pa - xy / xx * normal_stress[k], 2);
+  line.residual_Pa = std::sqrt(square / double(n));
+  line.peaks = n;
+  return line;
+}
+
 }  // namespace breccia

@@ -26,6 +26,19 @@ struct CurveFindings {
 /// @param mismatch  Pa, one per row
 CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double> mismatch);
 
+/// Modulus and permanent strain of each unloading. @param times  s, of each: when unloaded, when reloaded
+std::vector<CycleSummary> read_cycles(std::span<const CurveRow> rows,
+                                      std::span<const std::pair<double, double>> times);
+
+/// The largest axial stress before it first fell by the fraction; nothing when it never did.
+std::optional<double> stress_at_first_drop(std::span<const CurveRow> rows, double fraction);
+
+/// Slope of the mean stress over the volumetric strain between 5 and 25 % of the last pressure, Pa.
+std::optional<double> bulk_modulus(std::span<const CurveRow> rows);
+
+/// Straight line tau = c + sigma tan phi through the strengths of a direct shear series.
+std::optional<MohrCoulomb> fit_shear_line(std::span<const double> normal_stress, std::span<const double> strength);
+
 /// Straight line sigma_1 = q + N sigma_3 through the peaks: sin phi = (N - 1)/(N + 1), c = q/(2 sqrt N).
 /// @returns nothing for fewer than two different confinements
 std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement,

@@ -21,6 +21,9 @@ constexpr bool is_needed(Need need, const Features& features) {
       return features.plasticity;
     case Need::breakage:
       return features.breakage;
+    case Need::strength_area:
+    case Need::stress:
+      return false;  // made by the one who fills it
   }
   return true;
 }

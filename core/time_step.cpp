@@ -42,17 +42,17 @@ struct StepOperator {
   }
 };
 
-StepOperator step_operator(const ParticleTable& p, const BondTable& b, int threads,
+StepOperator step_operator(const ParticleTable& p, const BondTable& b, const Freedom& freedom, int threads,
                            const std::function<SpringConstants(std::size_t)>& constants) {
   StepOperator op;
-  const bool rotation = !p.spin.empty();
-  op.network = elastic_network(p, b, rotation, threads, constants);
+  op.network = elastic_network(p, b, freedom.rotation, threads, constants);
   op.by_mass.resize(static_cast<Eigen::Index>(6 * p.size));
   op.out.resize(op.by_mass.size());
   for (std::size_t row = 0; row < p.size; ++row) {
     const auto at = static_cast<Eigen::Index>(6 * row);
     op.by_mass.segment<3>(at).setConstant(1.0 / std::sqrt(p.mass[row]));
-    op.by_mass.segment<3>(at + 3).setConstant(1.0 / std::sqrt(sphere_inertia(p.mass[row], p.radius[row])));
+    op.by_mass.segment<3>(at + 3).setConstant(1.0 / std::sqrt(inertia(freedom.inertia_factor, p.mass[row], p.radius[row])));
+    if (freedom.plane) op.by_mass[at + 1] = op.by_mass[at + 3] = op.by_mass[at + 5] = 0.0;
   }
   return op;
 }
@@ -65,23 +65,23 @@ double rayleigh_quotient(const StepOperator& op, const Eigen::VectorXd& x) {
 
 }  // namespace
 
-double critical_time_step(const ParticleTable& p, const BondTable& b, double shear_ratio, double damping,
-                          int threads) {
+double critical_time_step(const ParticleTable& p, const BondTable& b, double shear_ratio,
+                          const Freedom& freedom, double damping, int threads) {
   const auto damper = [&](std::size_t k) { return b.damping.empty() ? 0.0 : b.damping[k]; };
-  const StepOperator stiffness = step_operator(p, b, threads, [&](std::size_t k) {
+  const StepOperator stiffness = step_operator(p, b, freedom, threads, [&](std::size_t k) {
     return SpringConstants{b.stiffness[k], shear_ratio * b.stiffness[k]};
   });
-  const StepOperator dashpots = step_operator(p, b, threads, [&](std::size_t k) {
+  const StepOperator dashpots = step_operator(p, b, freedom, threads, [&](std::size_t k) {
     return SpringConstants{damper(k), 0.0};
   });
 
   const double limit = 1.0 / (1.0 + damping);
-  const double proven = proven_time_step(p, b, shear_ratio, damping, threads);
+  const double proven = proven_time_step(p, b, shear_ratio, freedom, damping, threads);
   double dt = proven;
   Eigen::VectorXd mode;
   constexpr int turns = 6;
   for (int turn = 0; turn < turns; ++turn) {
-    StepOperator both = step_operator(p, b, threads, [&](std::size_t k) {
+    StepOperator both = step_operator(p, b, freedom, threads, [&](std::size_t k) {
       const double stiff = 0.25 * dt * dt * b.stiffness[k];
       return SpringConstants{stiff + 0.5 * dt * damper(k), shear_ratio * stiff};
     });
@@ -103,27 +103,26 @@ double critical_time_step(const ParticleTable& p, const BondTable& b, double she
   return 0.98 * dt;
 }
 
-double proven_time_step(const ParticleTable& p, const BondTable& b, double shear_ratio, double damping,
-                        int threads) {
+double proven_time_step(const ParticleTable& p, const BondTable& b, double shear_ratio,
+                        const Freedom& freedom, double damping, int threads) {
   std::vector<std::vector<Row>> bonds_of(p.size);
   for (std::size_t k = 0; k < b.size; ++k) {
     bonds_of[b.row_lo[k]].push_back(static_cast<Row>(k));
     bonds_of[b.row_hi[k]].push_back(static_cast<Row>(k));
   }
-  const bool rotation = !p.spin.empty();
   std::vector<Alone> alone(p.size);
   for_rows(p.size, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row) {
       // unknowns scaled by the square roots of mass and inertia: M becomes the identity
       const double by_mass = 1.0 / std::sqrt(p.mass[row]);
-      const double by_inertia = 1.0 / std::sqrt(sphere_inertia(p.mass[row], p.radius[row]));
+      const double by_inertia = 1.0 / std::sqrt(inertia(freedom.inertia_factor, p.mass[row], p.radius[row]));
       Block stiffness = Block::Zero(), damper = Block::Zero();
       for (const Row k : bonds_of[row]) {
         const Row other = b.row_lo[k] == row ? b.row_hi[k] : b.row_lo[k];
         const Vec3 l = p.reference_position[other] - p.reference_position[row];
         const Eigen::Vector3d n = Eigen::Vector3d(l.x, l.y, l.z).normalized();
         const double arm =
-            rotation ? b.rest_length[k] * p.radius[row] / (p.radius[row] + p.radius[other]) : 0.0;
+            freedom.rotation ? b.rest_length[k] * p.radius[row] / (p.radius[row] + p.radius[other]) : 0.0;
         // elongation and slip at the contact per unit of this end's displacement and rotation
         Eigen::Matrix<double, 3, 6> slip = Eigen::Matrix<double, 3, 6>::Zero();
         slip.leftCols<3>() = by_mass * (Eigen::Matrix3d::Identity() - n * n.transpose());

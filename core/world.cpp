@@ -14,19 +14,22 @@ namespace {
 
 using std::numbers::pi;
 
-void set_masses(ParticleTable& p, double density) {
-  for (std::size_t row = 0; row < p.size; ++row)
-    p.mass[row] = density * 4.0 / 3.0 * pi * p.radius[row] * p.radius[row] * p.radius[row];
+void set_masses(ParticleTable& p, double density, Space space) {
+  for (std::size_t row = 0; row < p.size; ++row) {
+    const double r = p.radius[row];
+    p.mass[row] = density * (space == Space::plane ? pi * r * r : 4.0 / 3.0 * pi * r * r * r);
+  }
 }
 
 void set_bond_constants(World& w) {
   const ParticleTable& p = w.particles;
   BondTable& b = w.bonds;
+  // a strength area of its own partitions space as it is; otherwise strength and stiffness share alpha A
+  for (double& area : b.area) area *= w.alpha;
+  const std::vector<double> stiffness = bond_stiffness(w.law, p, b);
   for (std::size_t k = 0; k < b.padded; ++k) {
     const Row lo = b.row_lo[k], hi = b.row_hi[k];
-    b.area[k] *= w.alpha;
-    const double length = strain_length_of(b.rest_length[k], p.radius[lo] + p.radius[hi]);
-    b.stiffness[k] = k < b.size ? w.law.young * b.area[k] / length : 0.0;  // none for padding
+    b.stiffness[k] = k < b.size ? stiffness[k] : 0.0;  // none for padding
     if (b.damping.empty()) continue;
     const double reduced_mass = p.mass[lo] * p.mass[hi] / (p.mass[lo] + p.mass[hi]);
     b.damping[k] = 2.0 * w.options.contact_damping * std::sqrt(reduced_mass * b.stiffness[k]);
@@ -36,11 +39,16 @@ void set_bond_constants(World& w) {
 }
 
 /// What the scene leaves out and the kernel still computes is never reached.
-DempackLaw law_of_scene(const Material& material, double shear_ratio, const Features& asked) {
+BondLaw law_of_scene(const Material& material, double shear_ratio, const Features& asked) {
   constexpr double never = std::numeric_limits<double>::infinity();
-  DempackLaw law = law_of(material, shear_ratio);
-  if (!asked.plasticity) law.limit_stress.fill(never);
-  if (!asked.breakage) law.tensile_strength = law.shear_strength = never;
+  Material m = material;
+  if (!asked.breakage) {
+    m.tensile_strength = m.shear_strength = never;
+    for (const char* strength : {"normal_strength", "bond_shear_strength"})
+      if (m.own.contains(strength)) m.own[strength] = never;
+  }
+  BondLaw law = law_of(m, shear_ratio);
+  if (!asked.plasticity) std::visit([](auto& l) { l.never_yield(); }, law);
   return law;
 }
 
@@ -53,26 +61,41 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.body = assembly.body;
   w.material = material;
   w.alpha = factor.alpha;
-  w.features = built_features(options.features);
+  w.space = assembly.space;
+  w.volume = assembly.volume();
   w.law = law_of_scene(material, factor.shear_ratio, options.features);
+  w.features = built_features(w.law, options.features);
+  std::visit(
+      [&](const auto& law) {
+        w.young = law.young;
+        w.shear_ratio = law.shear_ratio;
+        w.friction = law.failure.friction_dynamic;
+      },
+      w.law);
   w.particles = assembly.particles;
   w.bonds = assembly.bonds;
   w.first_top = assembly.first_top;
-  set_masses(w.particles, material.density);
+  set_masses(w.particles, material.density, w.space);
   set_bond_constants(w);
   w.critical_dt = critical_time_step(
-      w.particles, w.bonds, w.law.shear_ratio,
+      w.particles, w.bonds, w.shear_ratio,
+      {options.features.rotation, w.space == Space::plane, inertia_factor(w)},
       std::max(options.global_damping.translation, options.global_damping.rotation), options.threads);
   w.dt = options.safety * w.critical_dt;
   w.platens = make_platens(assembly, w.particles, options.rough_platens, material.young_modulus);
-  w.confinement = make_confinement(assembly);
+  w.confinement = make_confinement(assembly, options.skin_weights, options.rigid_skin);
   w.search = make_contact_search(assembly, options.new_contacts, 0.2 * assembly.mean_radius);
   const bool torques = w.features.rotation;
+  w.cracks = make_crack_record(options.cracks && w.features.breakage, options.threads, w.bonds.size);
   w.bond_plan = plan_scatter(options.scatter, options.threads, bond_batch, w.bonds.row_lo, w.bonds.row_hi,
                              std::span(w.bonds.gid_lo).first(w.bonds.size),
                              std::span(w.bonds.gid_hi).first(w.bonds.size), w.particles.size, torques);
-  w.bond_pass = bond_pass_for(w.features, options.instruction_set);
+  w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set);
   return w;
+}
+
+double inertia_factor(const World& w) {
+  return w.space == Space::plane ? disc_inertia_factor : sphere_inertia_factor;
 }
 
 BrokenCount count_broken(const World& w) {
@@ -88,9 +111,10 @@ BrokenCount count_broken(const World& w) {
 double kinetic_energy(const World& w) {
   std::vector<double> blocks;
   const ParticleTable& p = w.particles;
+  const double factor = inertia_factor(w);
   return sum_rows<double>(p.size, w.options.threads, blocks, [&](std::size_t row) {
     double twice = p.mass[row] * dot(p.velocity[row], p.velocity[row]);
-    if (!p.spin.empty()) twice += sphere_inertia(p.mass[row], p.radius[row]) * dot(p.spin[row], p.spin[row]);
+    if (!p.spin.empty()) twice += inertia(factor, p.mass[row], p.radius[row]) * dot(p.spin[row], p.spin[row]);
     return 0.5 * twice;
   });
 }
@@ -99,23 +123,29 @@ double stored_energy(const World& w) {
   std::vector<double> blocks;
   const BondTable& b = w.bonds;
   const bool plastic = !b.plastic_stretch.empty(), breakable = !b.damage_normal.empty();
-  double sum = sum_rows<double>(b.size, w.options.threads, blocks, [&](std::size_t k) {
-    const double distance = norm(w.particles.position[b.row_hi[k]] - w.particles.position[b.row_lo[k]]);
-    const BondConstants<double> bond{b.rest_length[k], b.area[k], b.stiffness[k], 0.0};
-    const BondHistory<double> h{{b.shear_x[k], b.shear_y[k], b.shear_z[k]},
-                                plastic ? b.plastic_stretch[k] : 0.0,
-                                breakable ? b.damage_normal[k] : 0.0,
-                                breakable ? b.damage_shear[k] : 0.0};
-    return stored_energy(w.law, bond, h, distance, w.features.criterion);
-  });
+  const bool coupled = w.features.criterion == Criterion::coupled;
+  const std::vector<double>& strength_area = strength_areas(b);
+  double sum = std::visit(
+      [&](const auto& law) {
+        return sum_rows<double>(b.size, w.options.threads, blocks, [&](std::size_t k) {
+          const double distance = norm(w.particles.position[b.row_hi[k]] - w.particles.position[b.row_lo[k]]);
+          const BondConstants<double> bond{b.rest_length[k], b.area[k], strength_area[k], b.stiffness[k], 0.0};
+          const BondHistory<double> h{{b.shear_x[k], b.shear_y[k], b.shear_z[k]},
+                                      plastic ? b.plastic_stretch[k] : 0.0,
+                                      breakable ? b.damage_normal[k] : 0.0,
+                                      breakable ? b.damage_shear[k] : 0.0};
+          return stored_energy(law, bond, h, distance, coupled);
+        });
+      },
+      w.law);
   const ContactTable& c = w.contacts;
   for (std::size_t k = 0; k < c.size; ++k) {
     const double overlap =
         c.free_length[k] - norm(w.particles.position[c.row_hi[k]] - w.particles.position[c.row_lo[k]]);
     if (overlap <= 0.0) continue;
     sum += 0.5 * c.stiffness[k] * overlap * overlap;
-    if (w.law.shear_ratio > 0.0)
-      sum += 0.5 * dot(c.shear_force[k], c.shear_force[k]) / (w.law.shear_ratio * c.stiffness[k]);
+    if (w.shear_ratio > 0.0)
+      sum += 0.5 * dot(c.shear_force[k], c.shear_force[k]) / (w.shear_ratio * c.stiffness[k]);
   }
   return sum;
 }

@@ -5,11 +5,12 @@
 #include "core/assembly.hpp"
 #include "core/boundary.hpp"
 #include "core/contacts.hpp"
-#include "core/material.hpp"
+#include "core/crack_record.hpp"
 #include "core/phases.hpp"
 #include "core/scatter_plan.hpp"
 #include "kernels/bond_pass.hpp"
 #include "kernels/integrate.hpp"
+#include "kernels/material.hpp"
 
 namespace breccia {
 
@@ -17,6 +18,9 @@ struct WorldOptions {
   Features features;  ///< that the scene asks for
   bool new_contacts = true;
   bool rough_platens = true;
+  bool rigid_skin = false;  ///< the mantle cannot move sideways
+  SkinWeights skin_weights = SkinWeights::radius;
+  bool cracks = true;  ///< keep a record of broken bonds
   double contact_damping = 0.9;  ///< xi
   bool paper_form = false;       ///< damping times pi alpha r_c/d0 (Onate et al. 2015, eq. 30)
   GlobalDamping global_damping{0.1, 0.1};
@@ -30,9 +34,13 @@ struct World {
   WorldOptions options;
   Body body;
   Material material;
-  DempackLaw law;
+  Space space = Space::solid;
+  BondLaw law;
   Features features;  ///< that run: those asked for, or the nearest superset that is built
+  double volume = 0;  ///< m^3, nominal
   double alpha = 1;
+  double young = 0, shear_ratio = 0;  ///< Pa and k_s/k_n of the bonds
+  double friction = 0;                ///< of broken bonds and contacts
   double critical_dt = 0;  ///< s, see critical_time_step
   double dt = 0;           ///< s
   double time = 0;         ///< s
@@ -45,6 +53,7 @@ struct World {
   Confinement confinement;
   ContactSearch search;
   ScatterPlan bond_plan, contact_plan;
+  CrackRecord cracks;
   BondPass bond_pass = nullptr;
   Phases phases;
 };
@@ -55,6 +64,9 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
 
 /// One step: forces at the present positions, then kick and drift.
 void advance(World& world);
+
+/// I = factor m r^2
+double inertia_factor(const World& world);
 
 struct BrokenCount {
   std::size_t tension = 0, shear = 0;

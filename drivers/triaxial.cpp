@@ -1,8 +1,8 @@
-#include "io/compression_program.hpp"
+#include "io/test_program.hpp"
 
 int main(int argc, char** argv) {
   return breccia::run_program(
       "triaxial",
       "Triaxial compression of a cylinder: one run per confinement, and the envelope of the peaks.", argc,
-      argv, breccia::run_compression_program);
+      argv, breccia::run_test_program);
 }

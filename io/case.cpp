@@ -69,19 +69,20 @@ struct Checks {
   void body() const {
     const Body& body = c.specimen.body;
     const bool box = body.shape == Shape::box, disc = body.shape == Shape::disc;
+    if (test == "bts" && !disc) no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
     if (!has("specimen.diameter")) no("specimen.diameter", "missing; give the nominal diameter, \"150 mm\"");
     if (!has("specimen.height"))
       no("specimen.height", "missing; give the nominal height along the axis, \"300 mm\"");
     if (box && !has("specimen.depth"))
       no("specimen.depth", "missing; a box has its width along x as diameter, and a depth");
     if (!box && has("specimen.depth")) no("specimen.depth", "belongs to shape = \"box\"; leave it out");
-    if (test == "bts" && !disc) no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
-    const bool wrong = (disc && (test == "ucs" || test == "triaxial")) || (box && test == "triaxial");
-    if (wrong) {
-      const std::string text =
-          fmt::format("{}: specimen.shape \"{}\" is not in this version for breccia-{}; valid: {}",
-                      place("specimen.shape"), disc ? "disc" : "box", test,
-                      test == "ucs" ? "\"cylinder\", \"box\"" : "\"cylinder\"");
+    if (test == "pack" || test == "bts") return;
+    const bool boxes = test == "ucs" || test == "tension" || test == "shear" || test == "biaxial";
+    if (disc || (box && !boxes) || (!box && test == "biaxial")) {
+      const std::string text = fmt::format(
+          "{}: specimen.shape \"{}\" does not go with breccia-{}; valid: {}", place("specimen.shape"),
+          disc ? "disc" : box ? "box" : "cylinder", test,
+          test == "biaxial" ? "\"box\"" : boxes ? "\"cylinder\", \"box\"" : "\"cylinder\"");
       throw BadInput(text);
     }
   }
@@ -112,12 +113,29 @@ struct Checks {
   }
 
   void loading() const {
+    if (test == "hydrostatic" || test == "shear") {
+      if (!has("test.confinement"))
+        no("test.confinement", test == "shear" ? "missing; give the normal stresses on the lid, [\"1 MPa\", \"5 MPa\"]"
+                                               : "missing; give the pressure to reach, [\"650 MPa\"]");
+      for (double p : c.test.confinement)
+        if (!(p > 0)) no("test.confinement", "must be more than 0 Pa");
+    }
+    if (c.test.load_axis == c.specimen.axis)
+      no("test.load_axis", "is the disc's own axis (specimen.axis); a disc is pressed across it");
     if (test != "ucs") return;
     for (double p : c.test.confinement)
       if (p != 0)
         no("test.confinement",
            fmt::format("{}: an unconfined test has none; leave it out, or use breccia-triaxial",
                        format_quantity(p, dimension::stress)));
+  }
+
+  void law(const std::string& name) const {
+    const bool of_bonds = facts_of(name).has("normal_stiffness");
+    if (of_bonds && c.bonds.alpha_rule != AlphaRule::number)
+      no("bonds.alpha", fmt::format("law {} has stiffnesses of its own, no area to scale; leave it out", quote(name)));
+    if (of_bonds && c.specimen.space != Space::plane)
+      no("material.law", fmt::format("law {} is one of discs; set specimen.dimensions = 2", quote(name)));
   }
 
   /// A [[material.at]] that no run uses is a slip of the pen, unless --set has chosen other confinements.
@@ -172,6 +190,27 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   lay_over(layer, part_of(from_set.layer, false));
   if (test == "pack")
     std::erase_if(layer, [](const auto& entry) { return !entry.first.starts_with("specimen."); });
+  const auto place_of = [&](std::string_view name) {
+    const auto given = layer.find(name);
+    return given == layer.end() || given->second.place.empty() ? file.string() : given->second.place;
+  };
+
+  // the law comes first: it has defaults of its own
+  MaterialLayers layers{{},
+                        {},
+                        part_of(from_file.layer, true),
+                        from_file.at.value_or(std::vector<ConfinementLayer>{}),
+                        part_of(from_set.layer, true)};
+  if (from_set.at) layers.given_at = *from_set.at;
+  if (const auto preset = layer.find("material.preset"); preset != layer.end()) {
+    Source source = read_preset(preset->second.reading.word, place_of("material.preset"), file.parent_path());
+    layers.preset = std::move(source.layer);
+    if (source.at) layers.preset_at = std::move(*source.at);
+  }
+  const std::string law = law_of(material_base(layers));
+  for (const LawStandard& standard : facts_of(law).standards)
+    if (const Key& key = *find_key(standard.key); test != "pack" && !layer.contains(key.name))
+      layer[std::string(key.name)] = {read_standard_text(key, standard.value), ""};
   for (const Key& key : all_keys())
     if (takes_standard(key, layer, test)) layer[std::string(key.name)] = {read_standard(key, test), ""};
 
@@ -182,7 +221,7 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
       key.store(c, given->second.reading);
   const Checks checks{layer, c, test, file.string()};
   checks.specimen();
-  checks.loading();
+  if (test != "pack") checks.loading();
   if (c.specimen.file) {
     Given& given = layer.find("specimen.file")->second;
     c.specimen.file = find_specimen(file, given);
@@ -193,18 +232,11 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
     return c;
   }
 
-  MaterialLayers layers{{},
-                        {},
-                        part_of(from_file.layer, true),
-                        from_file.at.value_or(std::vector<ConfinementLayer>{}),
-                        part_of(from_set.layer, true)};
-  if (from_set.at) layers.given_at = *from_set.at;
   checks.confinements(layers.given_at);
-  if (!c.preset.empty()) {
-    Source preset = read_preset(c.preset, checks.place("material.preset"), file.parent_path());
-    layers.preset = std::move(preset.layer);
-    if (preset.at) layers.preset_at = std::move(*preset.at);
-  }
+  checks.law(law);
+  refuse_foreign_keys(layers.given, law);
+  refuse_foreign_keys(layers.set, law);
+  for (const ConfinementLayer& group : layers.given_at) refuse_foreign_keys(group.layer, law);
   std::vector<ConfinementLayer> at;
   for (double confinement : c.test.confinement) {
     Layer material = material_at(layers, confinement);

@@ -6,10 +6,10 @@
 #include <variant>
 #include <vector>
 
-#include "core/material.hpp"
 #include "core/packing.hpp"
 #include "core/scene_options.hpp"
 #include "core/specimen.hpp"
+#include "kernels/material.hpp"
 
 namespace breccia {
 
@@ -27,6 +27,8 @@ struct BondsCase {
   AlphaRule alpha_rule = AlphaRule::automatic;
   double alpha = 0;  ///< when alpha_rule is number
   Elasticity elasticity = Elasticity::paper;
+  AreaRule area = AreaRule::minimum;
+  std::optional<AreaRule> strength_area;  ///< nothing: alpha times the area
 };
 
 struct DampingCase {
@@ -41,6 +43,10 @@ struct TestCase {
   double platen_speed = 0.1;  ///< m/s, of each platen
   double stop_strain = 0.02;
   double stop_after_peak = 0.5;  ///< fraction of the peak deviator; 0 = never
+  std::vector<double> unload_at;  ///< platen strains
+  double unload_to = 0.1;
+  std::optional<char> load_axis;  ///< bts: in the file
+  SkinWeights skin_weights = SkinWeights::radius;
 };
 
 struct FeatureCase {  ///< what the scene may leave out
@@ -59,6 +65,7 @@ struct Case {
   double safety = 0.8;
   ScatterKind scatter = ScatterKind::private_sums;
   int frames = 20;
+  bool stress = false, cracks = true;  ///< output
   std::string resolved;  ///< the whole case as TOML, every default written out
 };
 

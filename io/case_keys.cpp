@@ -1,7 +1,12 @@
 // The keys of a case, one declaration each, in the order of the resolved case.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <deque>
 
 #include "io/case_schema.hpp"
+#include "kernels/bond_laws.hpp"
 
 namespace breccia {
 namespace {
@@ -36,6 +41,11 @@ ScatterKind scatter_of(std::string_view word) {
   return word == "atomic" ? atomic : word == "gather" ? gather : private_sums;
 }
 
+AreaRule area_of(std::string_view word) {
+  using enum AreaRule;
+  return word == "harmonic" ? harmonic : word == "polyhedron" ? polyhedron : word == "voronoi" ? voronoi : minimum;
+}
+
 /// A packing is asked for as soon as one of its keys is given.
 PackRequest& pack_of(Case& c) {
   if (!c.specimen.pack) c.specimen.pack.emplace();
@@ -59,7 +69,7 @@ constexpr std::array keys{
     Key{.name = "specimen.shape",
         .kind = Kind::word,
         .standard = "cylinder",
-        .standard_of_bts = "disc",
+        .standard_for = "bts=disc biaxial=box shear=cylinder",
         .words = "cylinder disc box",
         .meaning = "of the nominal body",
         .store = [](C& c, const R& r) { c.specimen.body.shape = shape_of(r.word); }},
@@ -208,8 +218,8 @@ constexpr std::array keys{
     Key{.name = "material.law",
         .kind = Kind::word,
         .standard = "dempack",
-        .words = "dempack",
-        .later = "exponential kdem contact-bond parallel-bond",
+        .words = "dempack exponential kdem contact-bond",
+        .later = "parallel-bond",
         .meaning = "of the bonds",
         .store_material = [](M& m, const R& r) { m.law = r.word; }},
     Key{.name = "material.criterion",
@@ -249,10 +259,19 @@ constexpr std::array keys{
     Key{.name = "bonds.area",
         .kind = Kind::word,
         .standard = "minimum",
-        .words = "minimum",
-        .later = "harmonic polyhedron voronoi",
-        .meaning = "from which radius a bond has its area",
-        .store = [](C&, const R&) {}},
+        .words = "minimum harmonic polyhedron voronoi",
+        .meaning = "pi min(r)^2, pi (harmonic mean)^2, share of a virtual polyhedron, Voronoi face",
+        .store = [](C& c, const R& r) { c.bonds.area = area_of(r.word); }},
+    Key{.name = "bonds.strength_area",
+        .kind = Kind::word,
+        .standard = "same",
+        .words = "same minimum harmonic polyhedron voronoi",
+        .meaning = "that strengths stand on; same: alpha times the area; others as they are",
+        .store =
+            [](C& c, const R& r) {
+              c.bonds.strength_area.reset();
+              if (r.word != "same") c.bonds.strength_area = area_of(r.word);
+            }},
 
     // --- damping
     Key{.name = "damping.contact",
@@ -289,17 +308,19 @@ constexpr std::array keys{
         .kind = Kind::quantities,
         .dimension = dimension::stress,
         .standard = "0 Pa",
+        .standard_for = "hydrostatic= shear=",
         .range = at_least(0),
-        .not_for = "bts",
-        .why_not = "a Brazilian test has no confinement",
-        .meaning = "one run for each",
+        .not_for = "bts usc tension",
+        .why_not = "this test sets no pressure",
+        .meaning = "one run for each; hydrostatic: reached at the end; shear: on the lid of the box",
         .store = [](C& c, const R& r) { c.test.confinement = r.numbers; }},
     Key{.name = "test.platens",
         .kind = Kind::word,
         .standard = "rough",
+        .standard_for = "biaxial=smooth hydrostatic=smooth",
         .words = "rough smooth",
-        .not_for = "bts",
-        .why_not = "the strips of a Brazilian test hold the loading direction only",
+        .not_for = "bts shear",
+        .why_not = "strips hold the loading direction only, the halves of a shear box every direction",
         .meaning = "rough: no lateral motion of the end layers",
         .store = [](C& c, const R& r) { c.test.rough_platens = r.word == "rough"; }},
     Key{.name = "test.platen_speed",
@@ -311,13 +332,50 @@ constexpr std::array keys{
     Key{.name = "test.stop_strain",
         .standard = "0.02",
         .range = between(0, 1),
-        .meaning = "platen travel over H (bts: over D) at which a run ends",
+        .not_for = "hydrostatic",
+        .why_not = "a hydrostatic test ends at its pressure",
+        .meaning = "platen travel over H (bts: over D; shear: shift over D) at which a run ends",
         .store = [](C& c, const R& r) { c.test.stop_strain = r.number; }},
     Key{.name = "test.stop_after_peak",
         .standard = "0.5",
         .range = from_to_below(0, 1),
-        .meaning = "fraction of the peak deviator at which a run ends; 0: never",
+        .not_for = "hydrostatic",
+        .why_not = "a hydrostatic test ends at its pressure",
+        .meaning = "fraction of the peak deviator by which it has fallen when a run ends; 0: never",
         .store = [](C& c, const R& r) { c.test.stop_after_peak = r.number; }},
+    Key{.name = "test.unload_at",
+        .kind = Kind::quantities,
+        .range = between(0, 1),
+        .rising = true,
+        .not_for = "bts usc hydrostatic shear",
+        .why_not = "this test is not run in cycles",
+        .meaning = "platen strains at which the specimen is unloaded, then loaded again",
+        .store = [](C& c, const R& r) { c.test.unload_at = r.numbers; }},
+    Key{.name = "test.unload_to",
+        .standard = "0.1",
+        .range = from_to_below(0, 1),
+        .not_for = "bts usc hydrostatic shear",
+        .why_not = "this test is not run in cycles",
+        .meaning = "fraction of the deviator at which loading begins again",
+        .store = [](C& c, const R& r) { c.test.unload_to = r.number; }},
+    Key{.name = "test.load_axis",
+        .kind = Kind::word,
+        .words = "x y z",
+        .not_for = "ucs triaxial usc hydrostatic tension shear biaxial pack",
+        .why_not = "loading is along specimen.axis",
+        .meaning = "bts: the diameter in the file along which the disc is pressed",
+        .store = [](C& c, const R& r) { c.test.load_axis = r.word[0]; }},
+    Key{.name = "test.skin_weights",
+        .kind = Kind::word,
+        .standard = "radius",
+        .words = "radius voronoi",
+        .not_for = "bts usc tension shear ucs",
+        .why_not = "nothing presses on the mantle",
+        .meaning = "what pressure on a sphere of the mantle acts on: pi r^2, scaled, or its Voronoi face",
+        .store =
+            [](C& c, const R& r) {
+              c.test.skin_weights = r.word == "voronoi" ? SkinWeights::voronoi : SkinWeights::radius;
+            }},
 
     // --- time, run, features, output
     Key{.name = "time.accuracy",
@@ -376,11 +434,55 @@ constexpr std::array keys{
         .range = {0, 1e6, false, false},
         .meaning = "pictures for ParaView of each run; 0: none",
         .store = [](C& c, const R& r) { c.frames = static_cast<int>(r.whole); }},
+    Key{.name = "output.stress",
+        .kind = Kind::boolean,
+        .standard = "false",
+        .meaning = "stress of each particle and nearness to failure of each bond, in every picture",
+        .store = [](C& c, const R& r) { c.stress = r.flag; }},
+    Key{.name = "output.cracks",
+        .kind = Kind::boolean,
+        .standard = "true",
+        .meaning = "a row in cracks-K.csv for every bond that breaks, as it breaks",
+        .store = [](C& c, const R& r) { c.cracks = r.flag; }},
 };
 // clang-format on
 
 }  // namespace
 
-std::span<const Key> all_keys() { return keys; }
+namespace {
+
+/// Parameters that the laws declare, as keys of [material].
+std::vector<Key> keys_of_laws() {
+  static std::deque<std::string> names;
+  std::vector<Key> own;
+  for_each_law([&](const auto& law) {
+    for (const LawParameter& parameter : law.own) {
+      Key key;
+      key.name = names.emplace_back(fmt::format("material.{}", parameter.key));
+      key.dimension = parameter.unit == "N/m" ? dimension::stiffness
+                      : parameter.unit == "N" ? dimension::force
+                      : parameter.unit == "Pa" ? dimension::stress
+                                               : dimension::number;
+      key.range = at_least(parameter.low);
+      key.law = law.name;
+      key.meaning = names.emplace_back(fmt::format("law {}: {}", law.name, parameter.meaning));
+      own.push_back(key);
+    }
+  });
+  return own;
+}
+
+}  // namespace
+
+std::span<const Key> all_keys() {
+  static const std::vector<Key> all = [] {
+    std::vector<Key> list(keys.begin(), keys.end());
+    const auto after = std::find_if(list.begin(), list.end(), [](const Key& k) { return k.name == "material.criterion"; });
+    const auto own = keys_of_laws();
+    list.insert(after + 1, own.begin(), own.end());
+    return list;
+  }();
+  return all;
+}
 
 }  // namespace breccia

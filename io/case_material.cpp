@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "io/nearest.hpp"
+#include "kernels/bond_laws.hpp"
 
 namespace breccia {
 namespace {
@@ -68,8 +69,48 @@ Layer material_at(const MaterialLayers& m, double confinement) {
 
 Layer material_base(const MaterialLayers& m) { return laid(m, nullptr, nullptr); }
 
+const LawFacts& facts_of(std::string_view law) {
+  static const std::vector<LawFacts> all = [] {
+    std::vector<LawFacts> list;
+    for_each_law([&]<class Law>(const Law&) {
+      LawFacts facts{Law::name, split_words(Law::takes), {}, {}, false};
+      for (const LawParameter& own : Law::own) facts.own.push_back(own);
+      for (const LawStandard& standard : Law::standards) facts.standards.push_back(standard);
+      for (const Features& set : Law::feature_sets) facts.plasticity = facts.plasticity || set.plasticity;
+      list.push_back(std::move(facts));
+    });
+    return list;
+  }();
+  for (const LawFacts& facts : all)
+    if (facts.name == law) return facts;
+  fail<BadInput>("material.law: no law {}", quote(std::string(law)));
+}
+
+bool LawFacts::has(std::string_view key) const {
+  const auto is_own = [&](const LawParameter& p) { return p.key == key; };
+  return std::find(takes.begin(), takes.end(), key) != takes.end() ||
+         std::any_of(own.begin(), own.end(), is_own);
+}
+
+std::string law_of(const Layer& material) {
+  const auto law = material.find("material.law");
+  return law == material.end() ? "dempack" : law->second.reading.word;
+}
+
+void refuse_foreign_keys(const Layer& given, const std::string& law) {
+  const LawFacts& facts = facts_of(law);
+  for (const auto& [name, value] : given) {
+    const std::string_view key = std::string_view(name).substr(std::string_view("material.").size());
+    bool of_a_law = false;  // density and the like belong to every material
+    for_each_law([&]<class Law>(const Law&) { of_a_law = of_a_law || facts_of(Law::name).has(key); });
+    if (of_a_law && !facts.has(key))
+      refuse(value.place, name, fmt::format("law {} has no {}; leave it out", quote(law), key));
+  }
+}
+
 Material make_material(const Layer& layer, const FeatureCase& features, Elasticity elasticity,
                        const std::string& file) {
+  const LawFacts& law = facts_of(law_of(layer));
   const auto need = [&](const char* name, const char* otherwise = nullptr, const char* unless = nullptr) {
     const std::string full = std::string("material.") + name;
     if (layer.contains(full) || (otherwise && layer.contains(std::string("material.") + otherwise))) return;
@@ -77,27 +118,45 @@ Material make_material(const Layer& layer, const FeatureCase& features, Elastici
     const std::string or_off = unless ? fmt::format(", or set features.{} = false", unless) : "";
     refuse(file, full + or_else, fmt::format("missing; give it, or a material.preset{}", or_off));
   };
+  const auto need_of_law = [&](const char* name, const char* otherwise, const char* unless) {
+    if (law.has(name)) need(name, otherwise, unless);
+  };
+  const bool by_stiffness = law.has("normal_stiffness");  // of each bond, not of the specimen
   need("density");
-  need("young_modulus");
-  need("poisson_ratio");
+  if (!by_stiffness) {
+    need("young_modulus");
+    need("poisson_ratio");
+  }
   need("friction_dynamic");
   if (features.plasticity) {
-    need("limit_compressive_stress", nullptr, "plasticity");
-    need("stiffness_reduction", nullptr, "plasticity");
+    need_of_law("limit_compressive_stress", nullptr, "plasticity");
+    need_of_law("stiffness_reduction", nullptr, "plasticity");
   }
   if (features.breakage) {
-    need("friction_static", nullptr, "breakage");
-    need("tensile_strength", nullptr, "breakage");
-    need("shear_strength", nullptr, "breakage");
-    need("damage_normal", "fracture_energy_normal", "breakage");
-    need("damage_shear", "fracture_energy_shear", "breakage");
+    need_of_law("friction_static", nullptr, "breakage");
+    need_of_law("tensile_strength", nullptr, "breakage");
+    need_of_law("shear_strength", nullptr, "breakage");
+    need_of_law("damage_normal", "fracture_energy_normal", "breakage");
+    need_of_law("damage_shear", "fracture_energy_shear", "breakage");
   }
   Material material;
-  for (const auto& [name, given] : layer)
-    if (const Key* key = find_key(name); key && key->store_material)
+  for (const LawParameter& own : law.own) {
+    if (!own.standard.empty()) material.own[std::string(own.key)] = std::stod(std::string(own.standard));
+    else need(std::string(own.key).c_str());
+  }
+  for (const auto& [name, given] : layer) {
+    const Key* key = find_key(name);
+    if (!key) continue;
+    const std::string_view word = key->name.substr(std::string_view("material.").size());
+    if (key->store_material)
       key->store_material(material, given.reading);
+    else if (key->law == law.name)
+      material.own[std::string(word)] = given.reading.number;
+  }
+  if (by_stiffness && !layer.contains("material.young_modulus"))
+    material.young_modulus = material.own.at("normal_stiffness");  // per metre: for wave speeds only
   constexpr double largest = 0.25;  // MODEL: kappa = (1 - 4 nu)/(1 + nu) falls to zero there
-  if (elasticity == Elasticity::matched && material.poisson_ratio > largest)
+  if (elasticity == Elasticity::matched && !by_stiffness && material.poisson_ratio > largest)
     refuse(layer.find("material.poisson_ratio")->second.place, "material.poisson_ratio",
            fmt::format("must be at most {} with bonds.elasticity = \"matched\", not {}", largest,
                        material.poisson_ratio));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/case_layer.hpp"
+#include "kernels/bond_law.hpp"
 
 namespace breccia {
 
@@ -30,6 +31,24 @@ Layer material_at(const MaterialLayers&, double confinement);
 
 /// The keys in force where no confinement is named; a confinement changes some of them.
 Layer material_base(const MaterialLayers&);
+
+/// What the header of a law says of it.
+struct LawFacts {
+  std::string_view name;
+  std::vector<std::string> takes;
+  std::vector<LawParameter> own;
+  std::vector<LawStandard> standards;
+  bool plasticity = false;
+
+  bool has(std::string_view key) const;  ///< uses this key of [material], one that not every law uses
+};
+const LawFacts& facts_of(std::string_view law);
+
+/// The law that a material's keys ask for.
+std::string law_of(const Layer& material);
+
+/// A key in the case for something that its law lacks is refused by name; presets may hold more than a law uses.
+void refuse_foreign_keys(const Layer& given, const std::string& law);
 
 /// Checks that nothing is missing for the features in use and fills a Material.
 /// @param file  named where a key is missing

@@ -35,7 +35,13 @@ bool accepts(const Key& key, std::string_view test) {
 }
 
 std::string_view standard_of(const Key& key, std::string_view test) {
-  return test == "bts" && !key.standard_of_bts.empty() ? key.standard_of_bts : key.standard;
+  for (std::string_view rest = key.standard_for; !rest.empty();) {
+    const std::string_view one = rest.substr(0, rest.find(' '));
+    rest.remove_prefix(std::min(one.size() + 1, rest.size()));
+    const std::size_t equals = one.find('=');
+    if (one.substr(0, equals) == test) return one.substr(equals + 1);
+  }
+  return key.standard;
 }
 
 std::vector<std::string> key_names(std::string_view test, std::string_view table) {

@@ -36,7 +36,7 @@ struct Key {
   Kind kind = Kind::quantity;
   Dimension dimension{};
   std::string_view standard{};         ///< the default as one writes it; empty: none
-  std::string_view standard_of_bts{};  ///< where the Brazilian test has another
+  std::string_view standard_for{};  ///< where a test has another: "bts=disc biaxial=box"
   Range range{};
   std::string_view words{};       ///< valid words
   std::string_view later{};       ///< words (or true) that a later version brings: refused by name
@@ -46,6 +46,7 @@ struct Key {
   std::string_view not_for{};     ///< tests that refuse it
   std::string_view why_not{};     ///< the reason
   std::string_view meaning{};
+  std::string_view law{};         ///< a parameter that this law alone has
   void (*store)(Case&, const Reading&) = nullptr;
   void (*store_material)(Material&, const Reading&) = nullptr;
 };

@@ -97,6 +97,17 @@ Specimen place_specimen(Specimen specimen, char axis, std::optional<Vec3> centre
   return specimen;
 }
 
+Specimen stand_disc(Specimen specimen, char axis, std::optional<char> load_axis) {
+  const char load = load_axis.value_or(axis == 'z' ? 'y' : 'z');
+  // the file's axes x, y, z lie after place_specimen along: axis z: x, y, z; axis y: y, z, x; axis x: z, x, y
+  const bool along_x = axis == 'z' ? load == 'x' : axis == 'y' ? load == 'z' : load == 'y';
+  for (SpecimenSphere& s : specimen.spheres) {
+    const Vec3 c = s.centre;
+    s.centre = along_x ? Vec3{c.y, c.z, c.x} : Vec3{c.x, -c.z, c.y};
+  }
+  return specimen;
+}
+
 void check_specimen(const Specimen& specimen, const Body& body) {
   if (specimen.spheres.empty()) fail<BadInput>("{}: no sphere in the specimen", specimen.source);
   check_coincident(specimen);

@@ -21,6 +21,12 @@ Specimen read_specimen(const std::filesystem::path& file);
 /// spheres, or `centre` (m, in the coordinates of the file), to the origin.
 Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {});
 
+/// Stands a disc that is in place (axis along z) on its edge: its axis becomes y, the diameter to press z. A
+/// rotation, never a mirror.
+/// @param axis       of the disc in the file, as given to place_specimen
+/// @param load_axis  of the file; by default the y of a disc along z, else the z
+Specimen stand_disc(Specimen, char axis, std::optional<char> load_axis);
+
 /// Checks a specimen that is in place.
 /// @throws BadInput: no sphere, two spheres with one centre, a centre outside the body by more than 2 % of
 /// the diameter

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
+#include "core/law_of_material.hpp"
+#include "io/case_material.hpp"
 #include "io/read_specimen.hpp"
+#include "kernels/bond_pass.hpp"
 
 namespace breccia {
 
@@ -20,21 +24,87 @@ Specimen make_specimen(const Case& c, Progress& progress) {
 Features asked_features(const Case& c) {
   Features f;
   f.rotation = c.features.rotation;
-  f.plasticity = c.features.plasticity;
+  f.plasticity = c.features.plasticity && facts_of(c.materials.front().law).plasticity;
   f.breakage = c.features.breakage;
   f.contact_damping = c.damping.contact > 0.0;
   f.criterion = c.materials.front().criterion;
   return f;
 }
 
-Assembly make_assembly(const Case& c, const Features& features, int threads, Progress& progress) {
-  const BondingRule rule{c.bonds.range, c.bonds.coordination};
-  Assembly a = assemble(make_specimen(c, progress), c.specimen.body, rule, features, threads);
-  say(progress,
-      fmt::format("{} spheres, mean radius {:.4g} mm; {} bonds within a range of {:.3g}, {:.2f} per sphere{}",
-                  a.particles.size, a.mean_radius * 1e3, a.bonds.size, a.range, a.coordination,
-                  a.short_bonds ? fmt::format(", {} of nested spheres", a.short_bonds) : ""));
-  return a;
+namespace {
+
+/// Those that will run.
+Features features_that_run(const Case& c, const Features& asked) {
+  const Material& m = c.materials.front();
+  try {
+    return built_features(law_of(m, paper_shear_ratio(m.poisson_ratio)), asked);
+  } catch (const std::invalid_argument&) {
+    fail<BadInput>("{}: material.law \"{}\" has no criterion \"coupled\"; leave material.criterion out",
+                   c.source.string(), m.law);
+  }
+}
+
+std::string describe(const Assembly& a) {
+  return fmt::format(
+      "{} {}, mean radius {:.4g} mm; {} bonds within a range of {:.3g}, {:.2f} per {}{}{}", a.particles.size,
+      a.space == Space::plane ? "discs" : "spheres", a.mean_radius * 1e3, a.bonds.size, a.range, a.coordination,
+      a.space == Space::plane ? "disc" : "sphere",
+      a.short_bonds ? fmt::format(", {} of nested spheres", a.short_bonds) : "",
+      a.dropped_bonds ? fmt::format("; {} pairs in range have no common face", a.dropped_bonds) : "");
+}
+
+AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, bool rough, int threads,
+                       Progress& progress) {
+  const AreaFactor f = find_area_factor(
+      assembly, {rule, c.bonds.alpha, c.bonds.elasticity, c.materials.front(), rough}, threads);
+  say(progress, fmt::format("alpha {:.4f} (areas tile space {:.3f} times), k_s/k_n {:.4f}{}", f.alpha,
+                            f.fabric, f.shear_ratio,
+                            f.probes ? fmt::format("; elastic probe: E {:.4g} GPa, nu {:.4f}",
+                                                   f.young_modulus * 1e-9, f.poisson_ratio)
+                                     : ""));
+  return f;
+}
+
+}  // namespace
+
+ReadySpecimen make_ready(const Case& c, const std::string& test, const Features& asked, int threads,
+                         Progress& progress) {
+  const Features features = features_that_run(c, asked);
+  BondingRule rule{c.bonds.range, c.bonds.coordination, c.bonds.area, c.bonds.strength_area,
+                   c.specimen.space, Grip::ends};
+  const Specimen specimen = make_specimen(c, progress);
+  const Body& body = c.specimen.body;
+  ReadySpecimen ready;
+  const auto bonded = [&](const Specimen& s, const Body& b, Grip grip) {
+    rule.grip = grip;
+    return assemble(s, b, rule, features, threads, asked.rotation);
+  };
+  if (test != "bts") {
+    Assembly ends = bonded(specimen, body, Grip::ends);
+    say(progress, describe(ends));
+    ready.factor = area_factor(c, ends, c.bonds.alpha_rule, c.test.rough_platens, threads, progress);
+    ready.assembly = test == "shear" ? bonded(specimen, body, Grip::halves) : std::move(ends);
+    return ready;
+  }
+  // a disc is probed along its axis, between its flat faces; a two-dimensional one has none
+  Body standing = body;
+  standing.on_edge = true;
+  if (c.specimen.space == Space::plane) {
+    ready.assembly = bonded(specimen, standing, Grip::strips);
+    say(progress, describe(ready.assembly));
+    AlphaRule alpha = c.bonds.alpha_rule;
+    if (alpha == AlphaRule::automatic) {
+      say(progress, "alpha: a disc in two dimensions has no flat ends to probe; the affine value is used");
+      alpha = AlphaRule::affine;
+    }
+    ready.factor = area_factor(c, ready.assembly, alpha, false, threads, progress);
+    return ready;
+  }
+  ready.assembly = bonded(stand_disc(specimen, c.specimen.axis, c.test.load_axis), standing, Grip::strips);
+  say(progress, describe(ready.assembly));
+  const Assembly lying = bonded(specimen, body, Grip::ends);
+  ready.factor = area_factor(c, lying, c.bonds.alpha_rule, false, threads, progress);
+  return ready;
 }
 
 }  // namespace breccia

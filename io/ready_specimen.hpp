@@ -1,5 +1,6 @@
 // From a case to a bonded specimen: read or packed, put in place, checked, bonded.
 #pragma once
+#include "core/area_factor.hpp"
 #include "core/assembly.hpp"
 #include "io/case.hpp"
 #include "io/progress.hpp"
@@ -12,7 +13,15 @@ Specimen make_specimen(const Case& c, Progress& progress);
 /// What the scene of a case asks of the bond loop.
 Features asked_features(const Case& c);
 
-/// @param features  those that will run
-Assembly make_assembly(const Case& c, const Features& features, int threads, Progress& progress);
+/// A specimen bonded and held as a test wants it, and the area factor of its bonds.
+struct ReadySpecimen {
+  Assembly assembly;
+  AreaFactor factor;
+};
+
+/// @param test      name of the program
+/// @param asked     features of the scene
+ReadySpecimen make_ready(const Case& c, const std::string& test, const Features& asked, int threads,
+                         Progress& progress);
 
 }  // namespace breccia

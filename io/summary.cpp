@@ -11,10 +11,17 @@ using Json = nlohmann::ordered_json;  // keys stay in the order in which they ar
 
 Json of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
+Json of(const CycleSummary& cycle) {
+  return {{"strain", cycle.strain},
+          {"permanent_strain", cycle.permanent_strain},
+          {"unloading_modulus_Pa", cycle.unloading_modulus_Pa},
+          {"reloading_modulus_Pa", cycle.reloading_modulus_Pa}};
+}
+
 Json of(const RunSummary& run) {
   Json phases = Json::object();
   for (const auto& [name, seconds] : run.phases_s) phases[name] = seconds;
-  return {
+  Json all{
       {"confinement_Pa", run.confinement_Pa},
       {"peak_stress_Pa", of(run.peak_stress_Pa)},
       {"peak_deviator_Pa", of(run.peak_deviator_Pa)},
@@ -30,6 +37,7 @@ Json of(const RunSummary& run) {
       {"particles", run.particles},
       {"bonds", run.bonds},
       {"coordination", run.coordination},
+      {"dropped_bonds", run.dropped_bonds},
       {"short_bonds", run.short_bonds},
       {"broken_tension", run.broken_tension},
       {"broken_shear", run.broken_shear},
@@ -47,6 +55,16 @@ Json of(const RunSummary& run) {
       {"stopped_by", run.stopped_by},
       {"warnings", run.warnings},
   };
+  // what only some tests measure
+  if (run.strip_corrected_strength_Pa) all["strip_corrected_strength_Pa"] = *run.strip_corrected_strength_Pa;
+  if (run.first_drop_stress_Pa) all["first_drop_stress_Pa"] = *run.first_drop_stress_Pa;
+  if (!run.first_cracks.empty()) all["first_cracks"] = run.first_cracks;
+  if (run.bulk_modulus_Pa) all["bulk_modulus_Pa"] = *run.bulk_modulus_Pa;
+  if (!run.cycles.empty()) {
+    all["cycles"] = Json::array();
+    for (const CycleSummary& cycle : run.cycles) all["cycles"].push_back(of(cycle));
+  }
+  return all;
 }
 
 Json of(const MohrCoulomb& line) {

@@ -4,7 +4,8 @@
 
 #include <experimental/simd>
 
-#include "kernels/built_features.hpp"
+#include "kernels/bond_force.hpp"
+#include "kernels/kernel_list.hpp"
 
 namespace breccia::BRECCIA_ISA {
 namespace {
@@ -35,9 +36,28 @@ template <Features features>
   return e;
 }
 
+/// Which lanes of a batch broke in this step goes into the notes; rare, so out of the loop's way.
 template <Features features>
+[[gnu::noinline]] void note_breaks(const BondPassHistory& now, const BondHistory<Lanes>& before, std::size_t b,
+                                   BreakNotes& notes) {
+  for (std::size_t k = 0; k < width; ++k) {
+    const bool was = before.damage_normal[k] >= 1.0 || before.damage_shear[k] >= 1.0;
+    const bool is = now.damage_normal[b + k] >= 1.0 || now.damage_shear[b + k] >= 1.0;
+    if (was || !is) continue;
+    if (notes.count < notes.room.size())
+      notes.room[notes.count] = {static_cast<Index>(b + k),
+                                 {before.shear.x[k], before.shear.y[k], before.shear.z[k]},
+                                 features.plasticity ? static_cast<double>(before.plastic_stretch[k]) : 0.0,
+                                 before.damage_normal[k],
+                                 before.damage_shear[k]};
+    ++notes.count;
+  }
+}
+
+template <class Law, Features features>
 void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first, std::size_t last,
-               const Scatter& to) {
+               const Scatter& to, BreakNotes* notes) {
+  const Law& law = *static_cast<const Law*>(in.law);
   ForceBlock block;
   while (first < last) {
     const std::size_t count = last - first < ForceBlock::capacity ? last - first : ForceBlock::capacity;
@@ -46,7 +66,7 @@ void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t
       const Pair<Lanes> pair = relative_motion<features.rotation>(
           end_of<features>(in, in.row_lo.data() + b), end_of<features>(in, in.row_hi.data() + b), in.dt);
       BondConstants<Lanes> bond{load(in.rest_length.data() + b), load(in.area.data() + b),
-                                load(in.stiffness.data() + b), Lanes(0.0)};
+                                load(in.strength_area.data() + b), load(in.stiffness.data() + b), Lanes(0.0)};
       if constexpr (features.contact_damping) bond.damping = load(in.damping.data() + b);
       BondHistory<Lanes> h;
       h.shear = {load(history.shear_x.data() + b), load(history.shear_y.data() + b),
@@ -57,7 +77,8 @@ void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t
         h.damage_shear = load(history.damage_shear.data() + b);
       }
 
-      const Vec<Lanes> force = dempack_force<features>(in.law, bond, pair, h);
+      [[maybe_unused]] const BondHistory<Lanes> before = h;
+      const Vec<Lanes> force = bond_force<features>(law, bond, pair, h);
 
       store(h.shear.x, history.shear_x.data() + b);
       store(h.shear.y, history.shear_y.data() + b);
@@ -66,6 +87,12 @@ void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t
       if constexpr (features.breakage) {
         store(h.damage_normal, history.damage_normal.data() + b);
         store(h.damage_shear, history.damage_shear.data() + b);
+        if (notes) {
+          const Lanes one(1.0);
+          const auto broke = (h.damage_normal >= one || h.damage_shear >= one) &&
+                             !(before.damage_normal >= one || before.damage_shear >= one);
+          if (any(broke)) note_breaks<features>(history, before, b, *notes);
+        }
       }
       store(force.x, block.fx + k);
       store(force.y, block.fy + k);
@@ -84,13 +111,12 @@ void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t
 
 template <std::size_t... k>
 constexpr std::array<BondPass, sizeof...(k)> all_passes(std::index_sequence<k...>) {
-  return {bond_pass<built_feature_sets[k]>...};
+  return {bond_pass<LawOfKernel<k>, kernel_list[k].features>...};
 }
 
 }  // namespace
 
-extern const std::array<BondPass, built_feature_sets.size()> passes;
-const std::array<BondPass, built_feature_sets.size()> passes =
-    all_passes(std::make_index_sequence<built_feature_sets.size()>{});
+extern const std::array<BondPass, kernel_list.size()> passes;
+const std::array<BondPass, kernel_list.size()> passes = all_passes(std::make_index_sequence<kernel_list.size()>{});
 
 }  // namespace breccia::BRECCIA_ISA

@@ -5,8 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "kernels/dempack.hpp"
-#include "kernels/features.hpp"
+#include "kernels/bond_laws.hpp"
 #include "kernels/scatter.hpp"
 
 namespace breccia {
@@ -17,11 +16,11 @@ inline constexpr std::size_t bond_batch = 8;
 /// What the pass reads. Particle spans by particle row, bond spans by bond row.
 struct BondPassIn {
   double dt = 0;  ///< s
-  DempackLaw law;
+  const void* law = nullptr;  ///< constants, of the type that the kernel was chosen for (see constants_of)
   std::span<const Vec3> position, velocity, spin;
   std::span<const double> radius;
   std::span<const Index> row_lo, row_hi;
-  std::span<const double> rest_length, area, stiffness, damping;
+  std::span<const double> rest_length, area, strength_area, stiffness, damping;
 };
 
 /// What the pass changes; columns of absent features are empty.
@@ -29,9 +28,22 @@ struct BondPassHistory {
   std::span<double> shear_x, shear_y, shear_z, plastic_stretch, damage_normal, damage_shear;
 };
 
-/// Bonds [first, last), both multiples of `bond_batch`.
+/// A bond that broke in this step, as it was before.
+struct FreshBreak {
+  Index bond;
+  Vec3 shear;  ///< N, the history, as of the other three
+  double plastic_stretch, damage_normal, damage_shear;
+};
+
+/// Where a range notes its fresh breaks; those beyond the room are counted only.
+struct BreakNotes {
+  std::span<FreshBreak> room;
+  std::size_t count = 0;
+};
+
+/// Bonds [first, last), both multiples of `bond_batch`. Breaks are noted unless the pointer is null.
 using BondPass = void (*)(const BondPassIn&, const BondPassHistory&, std::size_t first, std::size_t last,
-                          const Scatter&);
+                          const Scatter&, BreakNotes*);
 
 enum class InstructionSet { x86_64, x86_64_v3, x86_64_v4 };
 
@@ -40,10 +52,17 @@ std::string_view name_of(InstructionSet);
 /// The widest set that this processor runs.
 InstructionSet best_instruction_set();
 
-/// The feature set that will run for a scene: the one asked for, or its nearest superset that is built.
-Features built_features(const Features& asked);
+/// The feature set that will run for a scene: the one asked for, or its nearest superset that is built for
+/// the law.
+/// @throws std::invalid_argument when none is
+Features built_features(const BondLaw& law, const Features& asked);
 
 /// The kernel for features that are built (see built_features).
-BondPass bond_pass_for(const Features& built, InstructionSet set);
+BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set);
+
+/// The law's constants as the kernel takes them; valid as long as the law.
+inline const void* constants_of(const BondLaw& law) {
+  return std::visit([](const auto& l) -> const void* { return &l; }, law);
+}
 
 }  // namespace breccia

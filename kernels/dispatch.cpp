@@ -2,18 +2,18 @@
 #include <stdexcept>
 
 #include "kernels/bond_pass.hpp"
-#include "kernels/built_features.hpp"
+#include "kernels/kernel_list.hpp"
 
 namespace breccia {
 
 namespace x86_64 {
-extern const std::array<BondPass, built_feature_sets.size()> passes;
+extern const std::array<BondPass, kernel_list.size()> passes;
 }
 namespace x86_64_v3 {
-extern const std::array<BondPass, built_feature_sets.size()> passes;
+extern const std::array<BondPass, kernel_list.size()> passes;
 }
 namespace x86_64_v4 {
-extern const std::array<BondPass, built_feature_sets.size()> passes;
+extern const std::array<BondPass, kernel_list.size()> passes;
 }
 
 std::string_view name_of(InstructionSet set) {
@@ -34,15 +34,15 @@ InstructionSet best_instruction_set() {
   return InstructionSet::x86_64;
 }
 
-Features built_features(const Features& asked) {
-  for (const Features& built : built_feature_sets)
-    if (built.covers(asked)) return built;
-  throw std::logic_error("no bond kernel covers the scene's features");
+Features built_features(const BondLaw& law, const Features& asked) {
+  for (const KernelKind& kernel : kernel_list)
+    if (kernel.law == law.index() && kernel.features.covers(asked)) return kernel.features;
+  throw std::invalid_argument("no bond kernel of this law covers the scene's features");
 }
 
-BondPass bond_pass_for(const Features& built, InstructionSet set) {
-  for (std::size_t k = 0; k < built_feature_sets.size(); ++k) {
-    if (!(built_feature_sets[k] == built)) continue;
+BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set) {
+  for (std::size_t k = 0; k < kernel_list.size(); ++k) {
+    if (kernel_list[k].law != law.index() || !(kernel_list[k].features == built)) continue;
     switch (set) {
       case InstructionSet::x86_64:
         return x86_64::passes[k];
@@ -52,7 +52,7 @@ BondPass bond_pass_for(const Features& built, InstructionSet set) {
         return x86_64_v4::passes[k];
     }
   }
-  throw std::logic_error("no bond kernel is built for these features");
+  throw std::invalid_argument("no bond kernel is built for these features");
 }
 
 }  // namespace breccia

@@ -24,18 +24,28 @@ struct Motion {
   std::span<Vec3> position, velocity, spin;  ///< spin is empty where nothing spins
   std::span<Vec3> force, torque;             ///< read, then zeroed for the next step
   std::span<const double> mass, radius;
+  double inertia_factor = 0.4;  ///< I = factor m r^2
+  bool spins = true;            ///< false: the scene has no rotation, spins stay zero
 };
 
 /// Kick and drift of rows [first, last) that move freely.
 void integrate_free(const Motion& m, std::size_t first, std::size_t last, double dt,
                     const GlobalDamping& damping);
 
-/// Rows of a platen: z moves with `platen_velocity`; x and y are fixed (rough) or free (smooth); spins are
-/// free.
-void integrate_held(const Motion& m, std::size_t first, std::size_t last, double dt,
-                    const GlobalDamping& damping, double platen_velocity, bool rough);
+/// Motion that a body's rows share: z is prescribed; x and y too, unless they are free.
+struct HeldMotion {
+  Vec3 velocity;              ///< m/s
+  bool lateral_free = false;  ///< x and y follow the forces
+};
 
-/// Moment of inertia of a solid sphere, kg m^2.
-inline double sphere_inertia(double mass, double radius) { return 0.4 * mass * radius * radius; }
+/// Rows of a platen or a shear box; spins are free.
+void integrate_held(const Motion& m, std::size_t first, std::size_t last, double dt,
+                    const GlobalDamping& damping, const HeldMotion& held);
+
+/// I = factor m r^2: of a sphere or a disc.
+inline constexpr double sphere_inertia_factor = 0.4, disc_inertia_factor = 0.5;
+
+/// Moment of inertia, kg m^2.
+inline double inertia(double factor, double mass, double radius) { return factor * mass * radius * radius; }
 
 }  // namespace breccia

@@ -49,4 +49,15 @@ inline R square_root(const R& a) {
   return sqrt(a);
 }
 
+/// exp(x) for |x| of a few, to some units in the last place: Taylor's series of x/16, squared four times. No call
+/// to the maths library, so it stays in the register.
+template <class R>
+inline R exponential(const R& x) {
+  const R y = R(1.0 / 16.0) * x;
+  R sum(1.0);
+  for (int n = 13; n > 0; --n) sum = R(1.0) + (R(1.0 / n) * y) * sum;
+  for (int k = 0; k < 4; ++k) sum = sum * sum;
+  return sum;
+}
+
 }  // namespace breccia

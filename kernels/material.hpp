@@ -1,6 +1,8 @@
 // What a specimen is made of, as an engineer states it. SI.
 #pragma once
 #include <array>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -8,7 +10,8 @@
 
 namespace breccia {
 
-/// Parameters of the Dempack law (Onate et al. 2015, tables 2 to 6), for one confinement.
+/// Parameters of a bond law for one confinement; their names are those of Onate et al. 2015, tables 2 to 6.
+/// Which of them a law takes, its header says.
 struct Material {
   double density = 0;           ///< kg/m^3, of the spheres
   double young_modulus = 0;     ///< Pa, of the specimen
@@ -25,6 +28,7 @@ struct Material {
   std::optional<double> fracture_energy_shear;   ///< J/m^2, G_II: instead of damage_shear
   std::string law = "dempack";
   Criterion criterion = Criterion::uncoupled;
+  std::map<std::string, double, std::less<>> own;  ///< parameters that one law alone has, by their keys
 };
 
 }  // namespace breccia

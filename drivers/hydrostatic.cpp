@@ -1,0 +1,5 @@
+#include "io/test_program.hpp"
+
+int main(int argc, char** argv) {
+  return breccia::run_program("hydrostatic", "Hydrostatic compression of a cylinder up to a pressure.", argc, argv, breccia::run_test_program);
+}

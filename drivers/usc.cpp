@@ -1,0 +1,5 @@
+#include "io/test_program.hpp"
+
+int main(int argc, char** argv) {
+  return breccia::run_program("usc", "Uniaxial strain compression: a cylinder whose mantle cannot move sideways.", argc, argv, breccia::run_test_program);
+}
