@@ -10,6 +10,12 @@ enum class AlphaRule { automatic, affine, porosity, number };
 /// asked for.
 enum class Elasticity { paper, matched };
 
+/// plane: two dimensions, discs of unit thickness in the x-z plane (y = 0); areas are lengths times 1 m.
+enum class Space { solid, plane };
+
+/// Where the area of a bond comes from (MODEL: alternatives for A).
+enum class AreaRule { minimum, harmonic, polyhedron, voronoi };
+
 /// How forces of bonds whose ends are shared between threads are summed.
 enum class ScatterKind { atomic, private_sums, gather };
 
