@@ -43,7 +43,7 @@ double matched_ratio(const Assembly& a, const AreaFactorRequest& r, int threads,
   const auto miss = [&](double kappa) {
     answer = probe_with(a, r.material, kappa, r.rough_platens, threads);
     ++probes;
-    return answer.material.poisson_ratio - r.material.poisson_ratio;
+    return answer.poisson_ratio - r.material.poisson_ratio;
   };
   const double tolerance = 0.002 * std::max(r.material.poisson_ratio, 0.05);
   double k0 = matched_shear_ratio(r.material.poisson_ratio, a.space == Space::plane), f0 = miss(k0);
@@ -61,7 +61,7 @@ double matched_ratio(const Assembly& a, const AreaFactorRequest& r, int threads,
         "bonds.elasticity: \"matched\" finds no k_s/k_n that gives this specimen a Poisson ratio of {} "
         "(reached {:.4f}); "
         "ask for one nearer to that, or use \"paper\"",
-        r.material.poisson_ratio, answer.material.poisson_ratio);
+        r.material.poisson_ratio, answer.poisson_ratio);
   return k1;
 }
 
@@ -93,9 +93,9 @@ AreaFactor find_area_factor(const Assembly& a, const AreaFactorRequest& r, int t
     f.probes = 1;
   }
   // the network is linear: the modulus is proportional to alpha
-  f.alpha = r.material.young_modulus / answer.material.young_modulus;
+  f.alpha = r.material.young_modulus / answer.young_modulus;
   f.young_modulus = r.material.young_modulus;
-  f.poisson_ratio = answer.material.poisson_ratio;
+  f.poisson_ratio = answer.poisson_ratio;
   return f;
 }
 

@@ -123,7 +123,8 @@ void set_bonds(Assembly& a, const std::vector<Link>& links, const Features& feat
 /// dropped.
 void set_areas(Assembly& a, const BondingRule& rule, const Features& features, int threads) {
   const auto areas = [&](AreaRule which) {
-    return bond_areas(which, a.particles, a.bonds, a.skin, a.body, a.space, threads);
+    return bond_areas(which, a.particles, a.bonds, a.skin, a.body, a.space, threads,
+                      a.body.on_edge ? 'y' : 'z');
   };
   std::vector<double> area = areas(rule.area), strength;
   if (rule.strength_area) strength = areas(*rule.strength_area);

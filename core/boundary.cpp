@@ -49,7 +49,7 @@ Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid)
   c.surface = a.mantle();
   c.force.resize(c.rows.size());
   if (weights == SkinWeights::voronoi) {
-    c.weight = mantle_areas(a.particles, c.rows, a.body);
+    c.weight = mantle_areas(a.particles, c.rows, a.body, a.space);
     return c;
   }
   for (const Row row : c.rows) {

@@ -1,5 +1,6 @@
 #include "core/elastic_network.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"

@@ -3,6 +3,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <span>
 
 #include "core/assembly.hpp"
 #include "kernels/bond_laws.hpp"

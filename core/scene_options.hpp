@@ -19,12 +19,6 @@ enum class AreaRule { minimum, harmonic, polyhedron, voronoi };
 /// How forces of bonds whose ends are shared between threads are summed.
 enum class ScatterKind { atomic, private_sums, gather };
 
-/// Two dimensions or three: discs of unit thickness in the x-z plane, or spheres.
-enum class Space { solid, plane };
-
-/// What the area of a bond is taken from (MODEL section 2).
-enum class AreaRule { minimum, harmonic, polyhedron, voronoi };
-
 /// Which particles the loading holds. ends: layers at both ends. strips: two strips along the mantle of a disc
 /// on edge. halves: the mantle's two halves and the end layers with them, a direct shear box.
 enum class Grip { ends, strips, halves };

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/elastic_network.hpp"
 #include "core/law_of_material.hpp"
 #include "core/parallel.hpp"
 #include "core/time_step.hpp"

@@ -17,6 +17,7 @@ struct SpecimenCase {
   std::optional<std::filesystem::path> file;  ///< the case's folder in front
   std::optional<PackRequest> pack;
   Body body;
+  Space space = Space::solid;
   char axis = 'z';             ///< of the cylinder or disc in the file
   std::optional<Vec3> centre;  ///< m; overrides the middle of the box around the spheres
 };

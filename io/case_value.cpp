@@ -160,7 +160,11 @@ Reading read_value(const Key& key, const TomlNode& node) {
 }
 
 Reading read_standard(const Key& key, std::string_view test) {
-  const std::string text(standard_of(key, test));
+  return read_standard_text(key, standard_of(key, test));
+}
+
+Reading read_standard_text(const Key& key, std::string_view standard) {
+  const std::string text(standard);
   TomlNode node{text, "default", 0};
   if (key.kind == Kind::boolean) node.value = text == "true";
   if (key.kind == Kind::whole_number) node.value = std::int64_t{std::stoll(text)};

@@ -15,6 +15,9 @@ namespace breccia {
 /// @throws BadInput with the node's place and the key
 Reading read_value(const Key&, const TomlNode&);
 
+/// A value written as a default is, for instance by a law.
+Reading read_standard_text(const Key&, std::string_view text);
+
 /// The default of a key for a test; the key must have one.
 Reading read_standard(const Key&, std::string_view test);
 
