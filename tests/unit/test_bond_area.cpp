@@ -405,10 +405,35 @@ TEST_CASE("voronoi cells: a nested sphere may have none and a centre outside mov
   CHECK(areas(AreaRule::voronoi, a)[0] == 0.0);  // bond 1-2
   CHECK(sum(c.volume) == Approx(0.016 * 4e-4).epsilon(1e-12));
 
+  // a centre outside: the wall goes there
   a.particles.reference_position[2].z = 0.011;
   c = cells(a);
   CHECK(c.grown == Approx(0.001).epsilon(1e-12));
   CHECK(sum(c.volume) == Approx(0.016 * 0.02 * 0.021).epsilon(1e-12));
+}
+
+TEST_CASE("voronoi cells: a small sphere in the gap of two others takes their face") {
+  // radical plane of the two: power 0.21 r^2 in the middle; a sphere of 0.1 r there has -0.01 r^2
+  Assembly a = bonded({{1, 0.01, {0, 0, -0.011}}, {2, 0.01, {0, 0, 0.011}}, {3, 0.001, {}}},
+                      {Shape::box, 0.02, 0.02, 0.042}, 0.15);
+  REQUIRE(a.bonds.size == 3);
+  const auto area = areas(AreaRule::voronoi, a);
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK(area[k] == Approx(a.bonds.gid_lo[k] == 1 && a.bonds.gid_hi[k] == 2 ? 0.0 : 4e-4).epsilon(1e-10));
+}
+
+TEST_CASE("voronoi cells: a centre on a round mantle or just outside has a cell [volume rel 1e-10]") {
+  for (const double beyond : {0.0, 0.0005}) {
+    const double angle = 2 * pi * 0.5 / 360, rho = 0.02 + beyond;  // the middle of a side of the prism
+    const Assembly a =
+        bonded({{1, 0.002, {rho * std::cos(angle), rho * std::sin(angle), 0}}, {2, 0.002, {0.017, 0, 0}}},
+               {Shape::cylinder, 0.04, 0, 0.03});
+    const VoronoiCells c = cells(a);
+    CHECK(c.grown == Approx(beyond).epsilon(1e-9));
+    CHECK(c.volume[0] > 0.0);
+    CHECK(sum(c.volume) == Approx(pi * rho * rho * 0.03).epsilon(1e-10));
+    CHECK(sum(mantle_areas(a.particles, a.skin, a.body)) == Approx(pi * 0.04 * 0.03).epsilon(1e-12));
+  }
 }
 
 TEST_CASE(
@@ -491,6 +516,9 @@ TEST_CASE("section area: polyhedron gives the section of sphere packings [thesis
                  << " a sphere; area through levels over section: minimum " << s.minimum << ", harmonic "
                  << s.harmonic << ", polyhedron " << s.polyhedron << ", voronoi " << s.voronoi << " ("
                  << s.without_face << " bonds without a face)");
+    CHECK(std::abs(s.polyhedron - 1) < std::min(s.minimum, s.harmonic) - 1);
+    CHECK(s.voronoi > 0.9);
+    CHECK(s.voronoi < 1.0);  // bonds reach most faces, not all
     return s;
   };
   report("4000 spheres packed",
