@@ -44,7 +44,7 @@ WorldOptions world_options(const Case& c, const std::string& test, const Feature
   WorldOptions o;
   o.features = asked;
   o.new_contacts = c.features.new_contacts;
-  o.rough_platens = test == "bts" ? false : test == "shear" ? true : c.test.rough_platens;
+  o.rough_platens = test == "shear" || c.test.rough_platens;
   o.rigid_skin = test == "usc";
   o.skin_weights = c.test.skin_weights;
   o.cracks = c.cracks;
