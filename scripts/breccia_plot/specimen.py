@@ -15,7 +15,7 @@ COLOUR_OF_STATE = np.array([(1, 1, 1), to_rgb(TENSION), to_rgb(SHEAR)])
 
 def draw_specimen(series, path):
     frames = read_frames(series)
-    body = Body.of(series.specimen, frames[0][1])
+    body = Body.of(series.shape, frames[0][1])
     factor = magnification(body, [frame for _, frame in frames])
     views = [face_on(body, frame.reference[frame.crack_ends].mean(axis=1)) for _, frame in frames]
     reach = np.max([extent(body, view, frame, factor) for view, (_, frame) in zip(views, frames)], axis=0)
@@ -29,7 +29,7 @@ def draw_specimen(series, path):
         cut.set_title("\n".join(heading) if stacked else ", ".join(heading), fontsize=10.5, loc="center")
         legend(inside, frame, 1 if stacked else 2)
     scale_bar(pairs[0][0], body, reach)
-    what = "at mid-thickness" if body.shape == "disc" else "through the axis"
+    what = {"disc": "at mid-thickness", "plane": "of the plane"}.get(body.shape, "through the axis")
     size = "to scale" if factor == 1 else f"magnified {factor:,} times"
     figure.text(0.5, 0.12 / figure.get_figheight(), f"{'Above' if stacked else 'Left'}: cut {what}; "
                 f"{'below' if stacked else 'right'}: all broken bonds, as crack faces. Displacements {size}.",
