@@ -13,10 +13,12 @@ from .body import Body, View
 from .errors import BadInput, FileTrouble
 from .events import events_of, gutenberg_richter
 from .specimen import outline
-from .style import HALO, INK, SHEAR, SOFT, TENSION, confined, new_figure, plt, save
+from .style import DISSIPATED, HALO, INK, SHEAR, SOFT, STORED, TENSION, confined, new_figure, plt, save
 
 BOND_LENGTHS = 2  # mean bond lengths that cracks of one event may be apart
-MOST_DRAWN = 3000  # cracks in the picture of the specimen; of more, a slab is drawn
+CRACKS, ENERGY = STORED, DISSIPATED  # colours
+CHAINED = 0.2  # share of the cracks in one event from which on the picture says so: too fast a test to tell events apart
+MOST_DRAWN = 1500  # cracks in the picture of the specimen; of more, a slab is drawn
 LOADING = View(np.array([1.0, 0, 0]), np.array([0, 0, 1.0]), np.array([0, -1.0, 0]))  # x to the right, z up
 
 
@@ -42,7 +44,7 @@ def draw_cracks(series, out):
         write_events(events, out / f"events-{k}.csv")
         draw_record(series, k, record, length, spheres, events, law, window, out / f"cracks-{k}.png")
         b = f", b = {law.b:.2f} ± {law.error:.2f}" if law else ""
-        yield f"{out / f'cracks-{k}.png'}: {record.time.size:,} cracks in {events.cracks.size:,} events{b}"
+        yield f"{out / f'cracks-{k}.png'}: {counted(record.time.size, 'crack')} in {counted(events.cracks.size, 'event')}{b}"
 
 
 def runs_with_cracks(path):
@@ -119,7 +121,7 @@ def draw_record(series, k, record, length, spheres, events, law, window, path):
     body = Body.of(series.shape, spheres)
     draw_places(figure.add_subplot(grid[0, 0]), body, record, length)
     draw_rose(figure.add_subplot(grid[0, 1], projection="polar"), record, body.shape == "plane")
-    draw_history(figure.add_subplot(grid[1, 0]), series, run, record, events)
+    draw_history(figure.add_subplot(grid[1, 0]), series, run, record)
     draw_magnitudes(figure.add_subplot(grid[1, 1]), events, law)
     figure.supxlabel(f"One event: cracks not more than {1000 * BOND_LENGTHS * length:.3g} mm ({BOND_LENGTHS} mean bond lengths) and "
                      f"{1e6 * window:.3g} µs apart. Energy magnitude: log₁₀ E = 1.5 M + 4.8, E in J.", fontsize=9.5, color=SOFT)
@@ -146,10 +148,11 @@ def draw_places(axes, body, record, length):
     reach = 1.03 * body.half[[0, 2]]
     axes.set(xlim=(-reach[0], reach[0]), ylim=(-reach[1], reach[1]), aspect="equal")
     axes.set_axis_off()
-    part = f"{np.count_nonzero(shown):,} of {record.time.size:,}, |y| < {1000 * slab:.2g} mm" if slab < depth.max() else \
-        f"all {record.time.size:,}"
-    axes.set_title(f"Cracks ({part}), loaded ↕")
-    axes.figure.colorbar(lines, ax=axes, label="strain when it broke (%)", fraction=0.05, pad=0.02)
+    part = counted(record.time.size, 'crack')
+    if slab < depth.max():
+        part = f"{np.count_nonzero(shown):,} of {part}: |y| < {1000 * slab:.2g} mm"
+    axes.figure.colorbar(lines, ax=axes, label="strain when they broke (%)", fraction=0.05, pad=0.02)
+    axes.set_title(part, loc="center")
 
 
 def plane_angle(normal):
@@ -193,11 +196,12 @@ def draw_rose(axes, record, plane):
     axes.yaxis.set_major_formatter("{x:g} %")
     axes.tick_params(axis="y", labelsize=9)
     axes.set_rlabel_position(90)
-    axes.set_title("Crack planes from the loading axis (0° = axial splitting)")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.14), ncol=3, fontsize=9.5, handlelength=1.0, columnspacing=1.2)
+    axes.set_title("Crack planes: angle to the load (0° splits along it)", loc="center", pad=-12)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.14), ncol=3, fontsize=9.5, handlelength=1.0, columnspacing=1.0,
+                handletextpad=0.5)
 
 
-def draw_history(axes, series, run, record, events):
+def draw_history(axes, series, run, record):
     """Stress, and how far cracks and energy have come, over strain; over time where the strain went back and forth."""
     over_time = run is not None and goes_back(run.curve["axial_strain"])
     if over_time:
@@ -206,26 +210,26 @@ def draw_history(axes, series, run, record, events):
     else:
         at = 100 * run.curve["axial_strain"] if run else None
         cracks_at, name = 100 * strain_of_cracks(run, record), f"{series.strain_name} (%)"
+    stress = []
     if run:
-        axes.plot(at, run.curve["stress_Pa"] / 1e6, color=SOFT, linewidth=1.6)
+        stress = axes.plot(at, run.curve["stress_Pa"] / 1e6, color=SOFT, linewidth=1.6, label="stress")
         axes.set_ylim(min(0, 1.08 * np.nanmin(run.curve["stress_Pa"]) / 1e6), 1.08 * np.nanmax(run.curve["stress_Pa"]) / 1e6 or 1)
-    axes.set_ylabel("stress (MPa), grey")
+    axes.set_ylabel("stress (MPa)")
     axes.set_xlabel(name)
     axes.set_xlim(left=min(0, axes.get_xlim()[0]) if axes.get_xlim()[0] < -0.05 * axes.get_xlim()[1] else 0)
-    axes.set_title("Cracks and energy released")
     part = axes.twinx()
     part.spines["right"].set_visible(True)
     part.grid(False)
     total = record.energy.sum()
-    part.plot(cracks_at, 100 * np.arange(1, record.time.size + 1) / record.time.size, color="#009E73",
-              label=f"{record.time.size:,} cracks, {events.cracks.size:,} events")
+    part.plot(cracks_at, 100 * np.arange(1, record.time.size + 1) / record.time.size, color=CRACKS,
+              label=counted(record.time.size, 'crack'))
     if total > 0:
-        part.plot(cracks_at, 100 * np.cumsum(record.energy) / total, color="#CC79A7", linestyle=(0, (5, 1.5)),
+        part.plot(cracks_at, 100 * np.cumsum(record.energy) / total, color=ENERGY, linestyle=(0, (5, 1.5)),
                   label=f"{amount(total)} released")
     part.set_ylim(0, 104)
-    part.set_ylabel("so far (% of the total)")
-    legend = part.legend(loc="upper left", fontsize=9.5, handlelength=1.4, borderaxespad=0.2, frameon=True, framealpha=0.85, edgecolor="none")
-    legend.set_zorder(5)
+    part.set_ylabel("cracks, energy so far (%)")
+    part.legend(handles=[*stress, *part.get_lines()], loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncol=3, fontsize=9.5,
+                handlelength=1.6, columnspacing=1.2, borderaxespad=0.2)
 
 
 def strain_of_cracks(run, record):
@@ -243,6 +247,10 @@ def goes_back(strain):
     return bool((np.maximum.accumulate(sign * strain) - sign * strain).max() > 0.02 * np.ptp(strain))
 
 
+def counted(n, name):
+    return f"{n:,} {name}{'s' * (n != 1)}"
+
+
 def amount(energy):
     return next((f"{energy * scale:.3g} {name}" for scale, name in ((1e-3, "kJ"), (1, "J"), (1e3, "mJ")) if energy * scale >= 1),
                 f"{1e6 * energy:.3g} µJ")
@@ -251,7 +259,7 @@ def amount(energy):
 def draw_magnitudes(axes, events, law):
     """How many events are as large as M or larger, and the line of Gutenberg and Richter."""
     magnitude = np.sort(events.magnitude[np.isfinite(events.magnitude)])
-    axes.set_title("Events by magnitude")
+    axes.set_title(f"{counted(events.cracks.size, 'event')} by magnitude")
     axes.set_xlabel("energy magnitude M (–)")
     axes.set_ylabel("events of M or more (–)")
     if not magnitude.size:
@@ -264,7 +272,11 @@ def draw_magnitudes(axes, events, law):
     if law:
         span = np.array([law.completeness, law.completeness + np.log10(law.events) / law.b])
         axes.plot(span, law.events * 10 ** (-law.b * (span - law.completeness)), color=INK, linewidth=1.5)
-        text = f"b = {law.b:.2f} ± {law.error:.2f}\n{law.events:,} events from M = {law.completeness:.1f}"
+        text = f"b = {law.b:.2f} ± {law.error:.2f}\n{law.events:,} events from M = {law.completeness:.1f}".replace("-", "−")
     else:
         text = "too few events for b"
+    largest = np.nanargmax(events.magnitude)
+    share = events.cracks[largest] / events.cracks.sum()
+    if share > CHAINED:
+        text += f"\nlargest: {100 * share:.0f} % of the cracks"
     axes.text(0.97, 0.96, text, transform=axes.transAxes, ha="right", va="top", path_effects=HALO)

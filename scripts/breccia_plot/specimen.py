@@ -136,7 +136,7 @@ def draw_inside(axes, body, view, frame, factor, corners=10):
     centres, normal = place.mean(axis=1), np.diff(place, axis=1)[:, 0]
     normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
     first = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal), axis=1)])
-    first /= np.linalg.norm(first, axis=1)[:, None]
+    first /= np.maximum(np.linalg.norm(first, axis=1), 1e-300)[:, None]
     second = np.cross(normal, first)
     angle = np.linspace(0, 2 * np.pi, corners, endpoint=False)[:, None]
     turn = np.cos(angle) * first[:, None] + np.sin(angle) * second[:, None]
