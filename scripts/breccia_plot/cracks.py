@@ -13,7 +13,7 @@ from .body import Body, View
 from .errors import BadInput, FileTrouble
 from .events import events_of, gutenberg_richter
 from .specimen import outline
-from .style import DISSIPATED, HALO, INK, SHEAR, SOFT, STORED, TENSION, confined, new_figure, plt, save
+from .style import DISSIPATED, HALO, INK, SHEAR, SOFT, STORED, TENSION, condition, new_figure, plt, save
 
 BOND_LENGTHS = 2  # mean bond lengths that cracks of one event may be apart
 CRACKS, ENERGY = STORED, DISSIPATED  # colours
@@ -116,7 +116,7 @@ def draw_record(series, k, record, length, spheres, events, law, window, path):
     run = next((run for run in series.runs if run.index == k and run.curve), None)
     figure, _ = new_figure(series, 10, 8.6)
     if len(series.runs) > 1 and run:
-        figure.suptitle(f"{series.title}, {confined(run.confinement)}", x=0.012, ha="left", fontsize=13, fontweight="bold")
+        figure.suptitle(f"{series.title}, {condition(series, run.confinement)}", x=0.012, ha="left", fontsize=13, fontweight="bold")
     grid = figure.add_gridspec(2, 2, height_ratios=[1.12, 1])
     body = Body.of(series.shape, spheres)
     draw_places(figure.add_subplot(grid[0, 0]), body, record, length)
@@ -124,7 +124,7 @@ def draw_record(series, k, record, length, spheres, events, law, window, path):
     draw_history(figure.add_subplot(grid[1, 0]), series, run, record)
     draw_magnitudes(figure.add_subplot(grid[1, 1]), events, law)
     figure.supxlabel(f"One event: cracks not more than {1000 * BOND_LENGTHS * length:.3g} mm ({BOND_LENGTHS} mean bond lengths) and "
-                     f"{1e6 * window:.3g} µs apart. Energy magnitude: log₁₀ E = 1.5 M + 4.8, E in J.", fontsize=9.5, color=SOFT)
+                     f"{1e6 * window:.4g} µs apart. Energy magnitude: log₁₀ E = 1.5 M + 4.8, E in J.", fontsize=9.5, color=SOFT)
     save(figure, path)
 
 
@@ -206,7 +206,8 @@ def draw_history(axes, series, run, record):
     over_time = run is not None and goes_back(run.curve["axial_strain"])
     if over_time:
         time_s = run.curve.get("time_s", np.arange(run.curve["axial_strain"].size))
-        at, cracks_at, name = 1000 * time_s, 1000 * record.time, "time (ms)"
+        scale, name = (1000, "ms") if time_s.max() < 1 else (1, "s")
+        at, cracks_at, name = scale * time_s, scale * record.time, f"time ({name})"
     else:
         at = 100 * run.curve["axial_strain"] if run else None
         cracks_at, name = 100 * strain_of_cracks(run, record), f"{series.strain_name} (%)"

@@ -2,7 +2,7 @@
 import numpy as np
 
 from .errors import CannotDraw
-from .style import (DISSIPATED, INK, KINETIC, STORED, WORK, beside, choose, confined, megapascal, new_figure, place_labels,
+from .style import (DISSIPATED, INK, KINETIC, STORED, WORK, beside, choose, condition, megapascal, new_figure, place_labels,
                     run_styles, save)
 
 LIMIT = 1e-3  # of kinetic over stored energy, up to the peak
@@ -22,7 +22,7 @@ def draw_energy(series, path):
     scale, name = unit(shown)
     for axes, run in zip(panels, shown):
         draw_balance(axes, series, run, scale)
-        axes.set_title("Energies" if len(series.runs) == 1 else confined(run.confinement))
+        axes.set_title("Energies" if len(series.runs) == 1 else condition(series, run.confinement))
     panels[0].set_ylabel(f"energy ({name})")
     panels[0].legend(loc="upper left", fontsize=9.5, handlelength=1.2, borderaxespad=0.2)
     save(figure, path)

@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 from . import results
 from .body import Body, face_on
 from .errors import CannotDraw
-from .style import INK, SHEAR, SOFT, TENSION, choose, confined, new_figure, save
+from .style import INK, SHEAR, SOFT, TENSION, choose, condition, new_figure, save
 
 MODES = ((results.TENSION_STATE, "tension", TENSION), (results.SHEAR_STATE, "shear", SHEAR))
 COLOUR_OF_STATE = np.array([(1, 1, 1), to_rgb(TENSION), to_rgb(SHEAR)])
@@ -24,7 +24,7 @@ def draw_specimen(series, path):
     for (cut, inside), view, (k, frame) in zip(pairs, views, frames):
         draw_cut(cut, body, view, frame, factor)
         draw_inside(inside, body, aslant(view), frame, factor)
-        heading = [confined(confinements[k])] if len(series.runs) > 1 and k in confinements else []
+        heading = [condition(series, confinements[k])] if len(series.runs) > 1 and k in confinements else []
         heading += [f"axial strain {100 * frame.strain:.2g} %"] if np.isfinite(frame.strain) else []
         cut.set_title("\n".join(heading) if stacked else ", ".join(heading), fontsize=10.5, loc="center")
         legend(inside, frame, 1 if stacked else 2)
