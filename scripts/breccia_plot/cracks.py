@@ -116,21 +116,23 @@ def draw_record(series, k, record, length, spheres, events, law, window, path):
     run = next((run for run in series.runs if run.index == k and run.curve), None)
     figure, _ = new_figure(series, 10, 8.6)
     if len(series.runs) > 1 and run:
-        figure.suptitle(f"{series.title}, {condition(series, run.confinement)}", x=0.012, ha="left", fontsize=13, fontweight="bold")
+        figure.suptitle(f"{series.title}, {condition(series, run.confinement)}", x=0.012, ha="left", fontsize=13,
+                        fontweight="bold")
     grid = figure.add_gridspec(2, 2, height_ratios=[1.12, 1])
     body = Body.of(series.shape, spheres)
     draw_places(figure.add_subplot(grid[0, 0]), body, record, length)
     draw_rose(figure.add_subplot(grid[0, 1], projection="polar"), record, body.shape == "plane")
     draw_history(figure.add_subplot(grid[1, 0]), series, run, record)
     draw_magnitudes(figure.add_subplot(grid[1, 1]), events, law)
-    figure.supxlabel(f"One event: cracks not more than {1000 * BOND_LENGTHS * length:.3g} mm ({BOND_LENGTHS} mean bond lengths) and "
-                     f"{1e6 * window:.4g} µs apart. Energy magnitude: log₁₀ E = 1.5 M + 4.8, E in J.", fontsize=9.5, color=SOFT)
+    figure.supxlabel(f"One event: cracks not more than {1000 * BOND_LENGTHS * length:.3g} mm ({BOND_LENGTHS} mean bond lengths) "
+                     f"and {amount(window, 's')} apart. Energy magnitude: log₁₀ E = 1.5 M + 4.8, E in J.", fontsize=9.5,
+                     color=SOFT)
     save(figure, path)
 
 
 def draw_places(axes, body, record, length):
     """Cracks as short lines along their planes, seen along y, by the strain at which they broke."""
-    depth = np.abs(record.position[:, 1] - (0 if body.shape != "plane" else record.position[:, 1]))
+    depth = np.abs(record.position[:, 1])
     slab = np.sort(depth)[min(MOST_DRAWN, depth.size) - 1]
     shown = depth <= slab
     flat = LOADING.flat(record.normal[shown])
@@ -140,15 +142,16 @@ def draw_places(axes, body, record, length):
     trace = np.where(across > 1e-9, np.stack([-flat[:, 1], flat[:, 0]], axis=1) / np.maximum(across, 1e-9), [1.0, 0.0]) * half
     middle = LOADING.flat(record.position[shown])
     strain = 100 * record.strain[shown]
-    colours = Normalize(np.nanmin(strain), np.nanmax(strain) if np.nanmax(strain) > np.nanmin(strain) else np.nanmin(strain) + 1e-9)
-    lines = LineCollection(np.stack([middle - trace, middle + trace], axis=1), array=strain, cmap="viridis_r", norm=colours,
-                           linewidths=1.0)
+    low, high = (np.nanmin(strain), np.nanmax(strain)) if np.isfinite(strain).any() else (0, 1)
+    colours = Normalize(low, max(high, low + 1e-9))
+    lines = LineCollection(np.stack([middle - trace, middle + trace], axis=1), array=strain, norm=colours,
+                           cmap=plt.get_cmap("viridis_r", 8), linewidths=1.0)  # few colours: a small file
     axes.add_collection(lines)
     outline(axes, body, LOADING)
     reach = 1.03 * body.half[[0, 2]]
     axes.set(xlim=(-reach[0], reach[0]), ylim=(-reach[1], reach[1]), aspect="equal")
     axes.set_axis_off()
-    part = counted(record.time.size, 'crack')
+    part = counted(record.time.size, "crack")
     if slab < depth.max():
         part = f"{np.count_nonzero(shown):,} of {part}: |y| < {1000 * slab:.2g} mm"
     axes.figure.colorbar(lines, ax=axes, label="strain when they broke (%)", fraction=0.05, pad=0.02)
@@ -223,10 +226,10 @@ def draw_history(axes, series, run, record):
     part.grid(False)
     total = record.energy.sum()
     part.plot(cracks_at, 100 * np.arange(1, record.time.size + 1) / record.time.size, color=CRACKS,
-              label=counted(record.time.size, 'crack'))
+              label=counted(record.time.size, "crack"))
     if total > 0:
         part.plot(cracks_at, 100 * np.cumsum(record.energy) / total, color=ENERGY, linestyle=(0, (5, 1.5)),
-                  label=f"{amount(total)} released")
+                  label=f"{amount(total, 'J')} released")
     part.set_ylim(0, 104)
     part.set_ylabel("cracks, energy so far (%)")
     part.legend(handles=[*stress, *part.get_lines()], loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncol=3, fontsize=9.5,
@@ -252,9 +255,11 @@ def counted(n, name):
     return f"{n:,} {name}{'s' * (n != 1)}"
 
 
-def amount(energy):
-    return next((f"{energy * scale:.3g} {name}" for scale, name in ((1e-3, "kJ"), (1, "J"), (1e3, "mJ")) if energy * scale >= 1),
-                f"{1e6 * energy:.3g} µJ")
+def amount(value, unit):
+    """With a prefix that leaves a number above one."""
+    scales = ((1e-3, "k"), (1, ""), (1e3, "m"))
+    return next((f"{value * scale:.3g} {prefix}{unit}" for scale, prefix in scales if value * scale >= 1),
+                f"{1e6 * value:.3g} µ{unit}")
 
 
 def draw_magnitudes(axes, events, law):
@@ -280,4 +285,4 @@ def draw_magnitudes(axes, events, law):
     share = events.cracks[largest] / events.cracks.sum()
     if share > CHAINED:
         text += f"\nlargest: {100 * share:.0f} % of the cracks"
-    axes.text(0.97, 0.96, text, transform=axes.transAxes, ha="right", va="top", path_effects=HALO)
+    axes.text(0.03, 0.04, text, transform=axes.transAxes, va="bottom", path_effects=HALO)
