@@ -1,4 +1,5 @@
 """Pictures of a run folder; each function takes the series and a path, and returns the line to report."""
+from .cracks import draw_cracks
 from .curves import draw_curves
 from .energy import draw_energy
 from .envelope import draw_envelope

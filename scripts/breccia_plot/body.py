@@ -1,4 +1,4 @@
-"""The nominal body, centre at the origin, axis z, and the directions it is looked at from."""
+"""The nominal body, centre at the origin, loaded along z, and the directions it is looked at from."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -6,25 +6,31 @@ import numpy as np
 
 @dataclass
 class Body:
-    shape: str  # "cylinder", "disc" (looked at along its axis), "box"
+    shape: str  # "cylinder" (axis z), "disc" (axis y, along which it is looked at), "box", "plane" (two dimensions, x and z)
     half: np.ndarray  # half sizes along x, y, z; m
 
     @classmethod
-    def of(cls, specimen, frame):
-        """As the summary names it; what is not named is measured from the spheres."""
-        reach = np.abs(frame.reference) + frame.radius[:, None]
-        measured = np.percentile(reach, 99.9, axis=0)
-        width = specimen.get("diameter_m") or 2 * max(measured[:2])
-        depth = specimen.get("depth_m") or width
-        height = specimen.get("height_m") or 2 * measured[2]
-        shape = specimen.get("shape") or ("cylinder" if height > 0.8 * width else "disc")
-        return cls(shape, np.array([width, depth, height]) / 2)
+    def of(cls, shape, spheres):
+        """Sizes are measured from the spheres; so is the shape where its name is not known."""
+        half = np.percentile(np.abs(spheres.reference) + spheres.radius[:, None], 99.9, axis=0)
+        if np.ptp(spheres.reference[:, 1]) < 1e-9 * half[2]:
+            return cls("plane", half)
+        shape = shape or ("disc" if half[1] < 0.8 * min(half[0], half[2]) else "cylinder")
+        if shape == "disc":
+            half[[0, 2]] = max(half[0], half[2])
+        if shape == "cylinder":
+            half[:2] = max(half[:2])
+        return cls(shape, half)
 
     def edges(self, toward):
         """Polylines of the outline, each with whether it is in sight of an eye far away in the direction `toward`."""
+        if self.shape == "plane":
+            corners = np.array([(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1), (-1, 0, -1)])
+            return [(corners * self.half, True)]
         return self.box_edges(toward) if self.shape == "box" else self.round_edges(toward)
 
     def round_edges(self, toward):
+        toward = toward[self.axes]
         across, along = np.hypot(*toward[:2]), toward[2]
         if across < 1e-9:
             return [(self.rim(np.linspace(0, 2 * np.pi, 121), 1), True)]
@@ -35,9 +41,15 @@ class Body:
             edges += [(self.rim(front, end), True), (self.rim(back, end), end * along >= -1e-9)]
         return edges
 
+    @property
+    def axes(self):
+        """Two directions across the axis, and the axis."""
+        return [0, 2, 1] if self.shape == "disc" else [0, 1, 2]
+
     def rim(self, angle, end):
         angle = np.atleast_1d(angle)
-        return np.stack([self.half[0] * np.cos(angle), self.half[0] * np.sin(angle), np.full(angle.shape, end * self.half[2])], 1)
+        unit = np.stack([np.cos(angle), np.sin(angle), np.full(angle.shape, end)], 1)
+        return unit[:, self.axes] * self.half  # exchanging two axes is its own inverse
 
     def box_edges(self, toward):
         corners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
@@ -68,8 +80,6 @@ def face_on(body, cracks):
     """The view square to the cut. A disc is cut at mid-thickness, a cylinder through its axis such that the plane
     that fits the cracks best is seen edge-on: a shear band shows its dip."""
     x, y, z = np.eye(3)
-    if body.shape == "disc":
-        return View(x, y, z)
     right = x
     if body.shape == "cylinder" and len(cracks) > 2:
         _, axes = np.linalg.eigh(np.cov(cracks.T))

@@ -2,7 +2,7 @@
 import numpy as np
 
 from .errors import CannotDraw
-from .style import (DISSIPATED, INK, KINETIC, STORED, WORK, beside, choose, confined, megapascal, new_figure, place_labels,
+from .style import (DISSIPATED, INK, KINETIC, STORED, WORK, beside, choose, condition, megapascal, new_figure, place_labels,
                     run_styles, save)
 
 LIMIT = 1e-3  # of kinetic over stored energy, up to the peak
@@ -17,12 +17,12 @@ def draw_energy(series, path):
     shown = choose(runs)
     figure, _ = new_figure(series, 10, 6.8)
     grid = figure.add_gridspec(2, len(shown), height_ratios=[1.1, 1])
-    draw_ratio(figure.add_subplot(grid[0, :]), runs, run_styles(series.runs))
+    draw_ratio(figure.add_subplot(grid[0, :]), series, runs, run_styles(series.runs))
     panels = [figure.add_subplot(grid[1, column]) for column in range(len(shown))]
     scale, name = unit(shown)
     for axes, run in zip(panels, shown):
-        draw_balance(axes, run, scale)
-        axes.set_title("Energies" if len(series.runs) == 1 else confined(run.confinement))
+        draw_balance(axes, series, run, scale)
+        axes.set_title("Energies" if len(series.runs) == 1 else condition(series, run.confinement))
     panels[0].set_ylabel(f"energy ({name})")
     panels[0].legend(loc="upper left", fontsize=9.5, handlelength=1.2, borderaxespad=0.2)
     save(figure, path)
@@ -38,7 +38,7 @@ def unit(runs):
     return next(((scale, name) for scale, name in ((1e-3, "kJ"), (1, "J"), (1e3, "mJ")) if largest * scale >= 1), (1e6, "µJ"))
 
 
-def draw_ratio(axes, runs, styles):
+def draw_ratio(axes, series, runs, styles):
     labels = []
     for run in runs:
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -60,16 +60,16 @@ def draw_ratio(axes, runs, styles):
     axes.axhline(LIMIT, color=INK, linewidth=1, linestyle=(0, (5, 3)))
     low, high = axes.get_xlim()
     axes.set_xlim(min(low, 0) if low < -0.1 * high else 0, high * 1.03)
-    axes.set_xlabel("axial strain (%)")
+    axes.set_xlabel(f"{series.strain_name} (%)")
     axes.set_ylabel("kinetic / stored energy (–)")
     axes.set_title("Kinetic over stored energy: quasi-static below 10⁻³ up to the peak (dot); pale after it")
     place_labels(axes, labels)
 
 
-def draw_balance(axes, run, scale):
+def draw_balance(axes, series, run, scale):
     for column, name, colour in ENERGIES:
         if known(run, column):
             axes.plot(100 * run.curve["axial_strain"], scale * run.curve[column], color=colour, label=name)
-    axes.set_xlabel("axial strain (%)")
+    axes.set_xlabel(f"{series.strain_name} (%)")
     axes.set_xlim(left=min(0, 100 * np.nanmin(run.curve["axial_strain"])))
     axes.set_ylim(bottom=min(0, axes.get_ylim()[0]) if axes.get_ylim()[0] < -0.1 * axes.get_ylim()[1] else 0)

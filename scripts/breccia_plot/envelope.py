@@ -1,4 +1,4 @@
-"""Mohr circles of the peaks and the Mohr-Coulomb line that the summary gives."""
+"""Mohr circles of the peaks, or shear strengths over normal stress, and the Mohr-Coulomb line that the summary gives."""
 import numpy as np
 
 from .errors import CannotDraw
@@ -7,6 +7,8 @@ from .style import HALO, INK, SOFT, megapascal, new_figure, place_labels, run_st
 
 
 def draw_envelope(series, path):
+    if series.test == "shear":
+        return draw_shear(series, path)
     runs = [run for run in series.runs if (run.summary.get("peak_stress_Pa") or 0) > 0]
     if series.test not in COMPRESSION_TO_FAILURE:
         raise CannotDraw(f"{TESTS.get(series.test, series.test)} has no Mohr circles")
@@ -22,6 +24,44 @@ def draw_envelope(series, path):
     draw_peaks(axes[0, 1], runs, styles, line)
     save(figure, path)
     return f"{path}: failure envelope of {len(runs)} runs" + ("" if line else ", circles alone: no mohr_coulomb in summary.json")
+
+
+def draw_shear(series, path):
+    """Each run of the direct shear test is one point of the envelope."""
+    runs = series.with_curves()
+    if len(runs) < 2:
+        raise CannotDraw("an envelope needs the curves of two runs")
+    line, styles = mohr_coulomb_line(series.mohr_coulomb), run_styles(series.runs)
+    figure, grid = new_figure(series, 8, 5.2, nrows=1, ncols=1)
+    axes = grid[0, 0]
+    normal, strength, reached = shear_points(runs)
+    if line:
+        cohesion, friction = line
+        span = np.array([0, 1.08 * normal.max()])
+        axes.plot(span, cohesion + span * np.tan(friction), color=INK, linewidth=1.5)
+        axes.annotate(f"c = {cohesion:.3g} MPa\nφ = {np.degrees(friction):.1f}°\nτ = c + σ tan φ", (0.03, 0.97),
+                      xycoords="axes fraction", va="top", fontsize=11, path_effects=HALO)
+    for run, x, y, whole in zip(runs, normal, strength, reached):
+        colour = styles[run.index]["color"]
+        axes.plot(x, y, "o", markersize=9, clip_on=False, zorder=3, markeredgecolor=colour, markeredgewidth=1.5,
+                  markerfacecolor=colour if whole else "white")
+    if not all(reached):
+        axes.text(0.97, 0.04, "hollow: still rising when the test ended", transform=axes.transAxes, ha="right", color=SOFT,
+                  fontsize=9.5, path_effects=HALO)
+    axes.set_xlim(0, 1.08 * normal.max() or 1)
+    axes.set_ylim(0, 1.15 * max(strength.max(), axes.get_ylim()[1] / 1.1))
+    axes.set_xlabel("normal stress σ (MPa)")
+    axes.set_ylabel("shear strength τ (MPa)")
+    axes.set_title("Shear strength over normal stress")
+    save(figure, path)
+    return f"{path}: shear strengths of {len(runs)} runs" + ("" if line else ", no line: no mohr_coulomb in summary.json")
+
+
+def shear_points(runs):
+    """Normal stress at the peak and shear stress there, MPa, and whether it was a peak."""
+    rows = [(run.curve["confining_stress_Pa"][run.peak_row], run.curve["stress_Pa"][run.peak_row]) for run in runs]
+    normal, shear = np.abs(np.array(rows).T) / 1e6
+    return normal, shear, [run.peak_reached for run in runs]
 
 
 def mohr_coulomb_line(fit):

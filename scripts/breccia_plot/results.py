@@ -8,6 +8,12 @@ TENSION_STATE, SHEAR_STATE = 1, 2  # column state of the bonds; 0 is intact
 
 
 @dataclass
+class Spheres:
+    radius: np.ndarray
+    reference: np.ndarray  # centres when the bonds were made
+
+
+@dataclass
 class Frame:
     radius: np.ndarray
     reference: np.ndarray  # centres when the bonds were made
@@ -38,6 +44,12 @@ def sizes(path, k):
         return file[f"run-{k}/particles/gid"].size, file[f"run-{k}/bonds/gid_lo"].size
 
 
+def spheres(path, k):
+    with h5py.File(path, "r") as file:
+        particles = file[f"run-{k}/particles"]
+        return Spheres(particles["radius"][:], particles["reference_position"][:])
+
+
 def last_frame(path, k):
     """The newest frame of run k that is whole (a run that was killed may leave a part of one); None without any."""
     with h5py.File(path, "r") as file:
@@ -56,6 +68,7 @@ def read_frame(run, frame):
     broken = np.flatnonzero(state)
     gid = particles["gid"][:]
     ends = np.stack([np.searchsorted(gid, bonds[end][:][broken]) for end in ("gid_lo", "gid_hi")], axis=1)
+    # in two dimensions the area has a depth, which is not to be seen
+    crack_radius = np.minimum(np.sqrt(bonds["area"][:][broken] / np.pi), 0.6 * bonds["rest_length"][:][broken])
     return Frame(particles["radius"][:], particles["reference_position"][:], frame["particles/position"][:],
-                 float(frame.attrs.get("axial_strain", np.nan)), ends, np.sqrt(bonds["area"][:][broken] / np.pi),
-                 state[broken])
+                 float(frame.attrs.get("axial_strain", np.nan)), ends, crack_radius, state[broken])

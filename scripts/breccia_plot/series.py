@@ -18,7 +18,7 @@ TESTS = {
     "hydrostatic": "Hydrostatic compression",
     "tension": "Direct tension",
     "shear": "Direct shear",
-    "biaxial": "Biaxial compression",
+    "biaxial": "Biaxial compression (2-D)",
     "impact": "Impact",
 }
 COMPRESSION_TO_FAILURE = {"ucs", "triaxial", "biaxial", ""}
@@ -29,6 +29,7 @@ class Run:
     index: int
     summary: dict = field(default_factory=dict)
     curve: dict = field(default_factory=dict)  # column name -> values; empty: no curve file
+    platen_strain: bool = False  # the gauge's strain is lacking, and the platens' has taken its place
 
     @property
     def confinement(self):
@@ -41,16 +42,16 @@ class Run:
 
     @property
     def peak_row(self):
-        """Row of the largest deviator, whatever its sign (direct tension may count it negative)."""
-        return int(np.nanargmax(np.abs(self.curve["deviator_Pa"])))
+        """Row of the largest stress, whatever its sign."""
+        return int(np.nanargmax(np.abs(self.curve["stress_Pa"])))
 
     @property
     def peak_reached(self):
         """True where the stress has fallen since its peak; a test that was stopped while rising has none."""
         if "peak_reached" in self.summary:
             return bool(self.summary["peak_reached"])
-        deviator = np.abs(self.curve["deviator_Pa"])
-        return bool(deviator[-1] < 0.98 * deviator[self.peak_row])
+        stress = np.abs(self.curve["stress_Pa"])
+        return bool(stress[-1] < 0.98 * stress[self.peak_row])
 
 
 @dataclass
@@ -58,7 +59,7 @@ class Series:
     folder: Path
     test: str = ""
     material: str = ""
-    specimen: dict = field(default_factory=dict)  # diameter_m, height_m, shape; what is known
+    case: dict = field(default_factory=dict)  # case.toml
     mohr_coulomb: dict | None = None
     runs: list = field(default_factory=list)
     notes: list = field(default_factory=list)
@@ -67,6 +68,21 @@ class Series:
 
     def with_curves(self):
         return [run for run in self.runs if run.curve]
+
+    @property
+    def shape(self):
+        """Of the specimen; "" where the case does not say."""
+        return self.case.get("specimen", {}).get("shape") or ("disc" if self.test == "bts" else "")
+
+    @property
+    def strain_name(self):
+        """What the column axial_strain holds in this test, for the axes."""
+        if self.test == "shear":
+            return "shear displacement over diameter"
+        if self.test == "bts":
+            return "platen travel over diameter"
+        platen = all(run.platen_strain for run in self.with_curves())
+        return "axial strain" + (" (of the platens)" if platen else "")
 
     @property
     def title(self):
@@ -87,19 +103,20 @@ def read_series(folder):
         raise BadInput(f"{folder} is not the folder of a run: neither summary.json, curve-0.csv nor results.h5 is there")
 
     summary = summary or {}
+    series.test = summary.get("test") or ""
     summaries = summary["runs"] if summary else []
     for k in sorted({*range(len(summaries)), *curves}):
         run = Run(k, summaries[k] if k < len(summaries) else {})
         if k in curves:
             run.curve = read_curve(curves[k])
+            complete(run, series.test)
         else:
             series.notes.append(f"curve-{k}.csv is absent")
         series.runs.append(run)
 
-    series.test = summary.get("test") or ""
     series.mohr_coulomb = summary.get("mohr_coulomb")
-    series.specimen = summary.get("specimen") or {}
-    series.material = material_name(summary.get("material"), folder / "case.toml")
+    series.case = read_case(folder / "case.toml")
+    series.material = material_name(summary.get("material"), series.case)
     if summaries:
         series.spheres, series.bonds = summaries[0].get("particles"), summaries[0].get("bonds")
     return series
@@ -120,7 +137,7 @@ def read_summary(folder, notes):
 
 
 def read_curve(path):
-    """Columns of a curve by name, with the deviator added; {} while it holds fewer than two rows."""
+    """Columns of a curve by name; {} while it holds fewer than two rows."""
     try:
         with path.open(encoding="utf-8", newline="") as file:
             header, *lines = csv.reader(file)
@@ -136,17 +153,41 @@ def read_curve(path):
     if len(rows) < 2:
         return {}
     curve = dict(zip(header, np.array(rows).T))
-    curve["deviator_Pa"] = curve["axial_stress_Pa"] - np.nan_to_num(curve["confining_stress_Pa"])
-    return curve if np.isfinite(curve["deviator_Pa"]).any() else {}
+    return curve if np.isfinite(curve["axial_stress_Pa"]).any() else {}
+
+
+def complete(run, test):
+    """Adds stress_Pa, the stress that the test is about, and puts the strain of the platens where the gauge has none."""
+    if not run.curve:
+        return
+    axial, confining = run.curve["axial_stress_Pa"], np.nan_to_num(run.curve["confining_stress_Pa"])
+    if test in ("bts", "tension", "shear"):
+        run.curve["stress_Pa"] = axial
+    elif test == "hydrostatic":
+        run.curve["stress_Pa"] = (axial + 2 * confining) / 3
+    else:
+        run.curve["stress_Pa"] = axial - confining
+    platen = run.curve.get("platen_strain", np.full(axial.size, np.nan))
+    lacking = ~np.isfinite(run.curve["axial_strain"])
+    # the two differ: a curve is of one or of the other, never patched
+    if lacking.mean() > 0.01 and np.isfinite(platen).sum() > np.count_nonzero(~lacking):
+        run.curve["axial_strain"], run.platen_strain = platen, True
+    if not np.isfinite(run.curve["axial_strain"]).any():
+        run.curve = {}
+
+
+def read_case(path):
+    """The case as it was run; {} where it is absent or damaged: it only names things."""
+    try:
+        case = tomllib.loads(path.read_text(encoding="utf-8"))
+        return {name: section for name, section in case.items() if isinstance(section, dict)}
+    except (OSError, ValueError):
+        return {}
 
 
 def material_name(material, case):
     """From the summary, else the preset the case names."""
     if isinstance(material, str):
         return material
-    if not material:
-        try:
-            material = tomllib.loads(case.read_text(encoding="utf-8")).get("material", {})
-        except (OSError, ValueError):
-            return ""
+    material = material or case.get("material", {})
     return str(material.get("name") or material.get("preset") or "")

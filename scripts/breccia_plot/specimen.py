@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 from . import results
 from .body import Body, face_on
 from .errors import CannotDraw
-from .style import INK, SHEAR, SOFT, TENSION, choose, confined, new_figure, save
+from .style import INK, SHEAR, SOFT, TENSION, choose, condition, new_figure, save
 
 MODES = ((results.TENSION_STATE, "tension", TENSION), (results.SHEAR_STATE, "shear", SHEAR))
 COLOUR_OF_STATE = np.array([(1, 1, 1), to_rgb(TENSION), to_rgb(SHEAR)])
@@ -15,7 +15,7 @@ COLOUR_OF_STATE = np.array([(1, 1, 1), to_rgb(TENSION), to_rgb(SHEAR)])
 
 def draw_specimen(series, path):
     frames = read_frames(series)
-    body = Body.of(series.specimen, frames[0][1])
+    body = Body.of(series.shape, frames[0][1])
     factor = magnification(body, [frame for _, frame in frames])
     views = [face_on(body, frame.reference[frame.crack_ends].mean(axis=1)) for _, frame in frames]
     reach = np.max([extent(body, view, frame, factor) for view, (_, frame) in zip(views, frames)], axis=0)
@@ -24,12 +24,12 @@ def draw_specimen(series, path):
     for (cut, inside), view, (k, frame) in zip(pairs, views, frames):
         draw_cut(cut, body, view, frame, factor)
         draw_inside(inside, body, aslant(view), frame, factor)
-        heading = [confined(confinements[k])] if len(series.runs) > 1 and k in confinements else []
+        heading = [condition(series, confinements[k])] if len(series.runs) > 1 and k in confinements else []
         heading += [f"axial strain {100 * frame.strain:.2g} %"] if np.isfinite(frame.strain) else []
         cut.set_title("\n".join(heading) if stacked else ", ".join(heading), fontsize=10.5, loc="center")
         legend(inside, frame, 1 if stacked else 2)
     scale_bar(pairs[0][0], body, reach)
-    what = "at mid-thickness" if body.shape == "disc" else "through the axis"
+    what = {"disc": "at mid-thickness", "plane": "of the plane"}.get(body.shape, "through the axis")
     size = "to scale" if factor == 1 else f"magnified {factor:,} times"
     figure.text(0.5, 0.12 / figure.get_figheight(), f"{'Above' if stacked else 'Left'}: cut {what}; "
                 f"{'below' if stacked else 'right'}: all broken bonds, as crack faces. Displacements {size}.",
@@ -136,7 +136,7 @@ def draw_inside(axes, body, view, frame, factor, corners=10):
     centres, normal = place.mean(axis=1), np.diff(place, axis=1)[:, 0]
     normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
     first = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal), axis=1)])
-    first /= np.linalg.norm(first, axis=1)[:, None]
+    first /= np.maximum(np.linalg.norm(first, axis=1), 1e-300)[:, None]
     second = np.cross(normal, first)
     angle = np.linspace(0, 2 * np.pi, corners, endpoint=False)[:, None]
     turn = np.cos(angle) * first[:, None] + np.sin(angle) * second[:, None]

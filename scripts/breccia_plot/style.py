@@ -39,7 +39,10 @@ def megapascal(stress):
     return f"{stress / 1e6:.3g} MPa"
 
 
-def confined(pressure):
+def condition(series, pressure):
+    """What tells one run of a series from another: its confinement, or the normal stress of a shear test."""
+    if series.test == "shear":
+        return f"{megapascal(pressure)} normal stress"
     return f"{megapascal(pressure)} confined" if round(pressure) else "unconfined"
 
 
