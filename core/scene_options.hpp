@@ -13,4 +13,7 @@ enum class Elasticity { paper, matched };
 /// How forces of bonds whose ends are shared between threads are summed.
 enum class ScatterKind { atomic, private_sums, gather };
 
+/// plane: discs of unit thickness in the x-z plane, y = 0.
+enum class Space { solid, plane };
+
 }  // namespace breccia
