@@ -40,7 +40,7 @@ struct PackRequest {
 /// a disc the circle of its diameter about y (its height is not read). With a genesis pressure the overlaps
 /// are those of the pressed discs: bonds that take the distances as they are start free of stress.
 /// @param request   number, sizes, porosity (0.15 to 0.60; in the plane 0.02 to 0.60), genesis pressure (to
-/// 0.2) and
+/// 0.12) and
 ///                  seed; the same request gives the same packing bit for bit, with any number of threads
 /// @param progress  called now and then with a fraction done and the present mean overlap/mean radius
 Specimen pack_spheres(const Body& body, const PackRequest& request,

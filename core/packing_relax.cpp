@@ -128,8 +128,10 @@ struct Fire {
   }
 };
 
+/// @param margin  of a centre to the walls at least, of its radius
 /// @return the largest distance any sphere has come since neighbours were listed, m
-double move(const Region& region, const Fire& fire, std::span<const double> r, std::span<Vec3> x, State& s) {
+double move(const Region& region, const Fire& fire, double margin, std::span<const double> r,
+            std::span<Vec3> x, State& s) {
   std::vector<double> parts((x.size() + block - 1) / block);
   for_blocks(x.size(), [&](std::size_t b, std::size_t begin, std::size_t end) {
     double most2 = 0;
@@ -138,7 +140,7 @@ double move(const Region& region, const Fire& fire, std::span<const double> r, s
       Vec3 step = fire.dt * s.v[i];
       const double length = norm(step), limit = 0.2 * r[i];
       if (length > limit) step = (limit / length) * step;
-      x[i] = keep_inside(region, x[i] + step, 0.5 * r[i]);
+      x[i] = keep_inside(region, x[i] + step, margin * r[i]);
       const Vec3 moved = x[i] - s.x_listed[i];
       most2 = std::max(most2, dot(moved, moved));
     }
@@ -154,6 +156,8 @@ bool relax(const Region& region, const RelaxStage& stage, std::span<const double
   double mean_radius = 0;
   for (const double each : r) mean_radius += each / static_cast<double>(r.size());
 
+  // A linear spring lets a disc in a tight place far into a wall: 0.5 would hold it there, out of balance
+  const double margin = stage.linear ? 0.1 : 0.5;
   State s{std::vector<Vec3>(x.size()), std::vector<Vec3>(x.size()), {}, {}};
   Fire fire;
   double moved = 0;
@@ -169,7 +173,7 @@ bool relax(const Region& region, const RelaxStage& stage, std::span<const double
     if (sums.force2 == 0) return true;  // loose: nobody touches anybody
     if (std::sqrt(sums.force2 / static_cast<double>(x.size())) < stage.balance * mean_overlap) return true;
     fire.adapt(sums);
-    moved = move(region, fire, r, x, s);
+    moved = move(region, fire, margin, r, x, s);
   }
   return false;
 }
