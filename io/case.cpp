@@ -33,6 +33,7 @@ bool takes_standard(const Key& key, const Layer& layer, const std::string& test)
   const Key* other = rival(key);
   if (other && layer.contains(other->name)) return false;
   if (!is_pack(key.name)) return true;
+  if (key.name == "specimen.pack.porosity" && layer.contains("specimen.pack.genesis_pressure")) return false;
   if (key.name == "specimen.pack.sizes.spread") {
     const auto kind = layer.find("specimen.pack.sizes.kind");
     if (kind != layer.end() && kind->second.reading.word == "sieves") return false;
@@ -69,6 +70,7 @@ struct Checks {
   void body() const {
     const Body& body = c.specimen.body;
     const bool box = body.shape == Shape::box, disc = body.shape == Shape::disc;
+    if (c.specimen.space == Space::plane) return body_in_plane();
     if (!has("specimen.diameter")) no("specimen.diameter", "missing; give the nominal diameter, \"150 mm\"");
     if (!has("specimen.height"))
       no("specimen.height", "missing; give the nominal height along the axis, \"300 mm\"");
@@ -86,7 +88,28 @@ struct Checks {
     }
   }
 
+  void body_in_plane() const {
+    const Shape shape = c.specimen.body.shape;
+    if (test == "ucs" || test == "triaxial")
+      no("specimen.dimensions", fmt::format("2 is not in this version for breccia-{}; valid: 3", test));
+    if (shape == Shape::cylinder)
+      no("specimen.shape", "a 2-D scene has no cylinder; valid: \"box\" (a rectangle), \"disc\" (a circle)");
+    if (test == "bts" && shape != Shape::disc)
+      no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
+    if (!has("specimen.diameter"))
+      no("specimen.diameter",
+         "missing; give the diameter of the circle or the width of the rectangle, \"50 mm\"");
+    if (shape == Shape::box && !has("specimen.height"))
+      no("specimen.height", "missing; give the height of the rectangle, \"100 mm\"");
+    if (shape == Shape::disc && has("specimen.height"))
+      no("specimen.height", "a disc in a 2-D scene is 1 m thick; leave it out");
+    if (has("specimen.depth")) no("specimen.depth", "a 2-D scene is 1 m thick; leave it out");
+  }
+
   void packing() const {
+    if (has("specimen.pack.genesis_pressure") && c.specimen.space != Space::plane)
+      no("specimen.pack.genesis_pressure",
+         "presses discs in a plane; write specimen.dimensions = 2 or leave it out");
     if (c.specimen.axis != 'z') no("specimen.axis", "a packing made here has its axis along z; valid: \"z\"");
     if (c.specimen.centre) no("specimen.centre", "belongs to specimen.file; a packing made here is centred");
     if (!has("specimen.pack.spheres")) no("specimen.pack.spheres", "missing; give the number of spheres");
@@ -172,8 +195,11 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   lay_over(layer, part_of(from_set.layer, false));
   if (test == "pack")
     std::erase_if(layer, [](const auto& entry) { return !entry.first.starts_with("specimen."); });
+  const auto dimensions = layer.find("specimen.dimensions");
+  const bool plane = dimensions != layer.end() && dimensions->second.reading.whole == 2;
   for (const Key& key : all_keys())
-    if (takes_standard(key, layer, test)) layer[std::string(key.name)] = {read_standard(key, test), ""};
+    if (takes_standard(key, layer, test))
+      layer[std::string(key.name)] = {read_standard(key, test, plane ? Space::plane : Space::solid), ""};
 
   Case c;
   c.source = file;
@@ -183,6 +209,10 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   const Checks checks{layer, c, test, file.string()};
   checks.specimen();
   checks.loading();
+  if (plane) {
+    if (c.specimen.body.shape == Shape::disc) c.specimen.body.height = c.specimen.body.diameter;
+    if (c.specimen.pack) c.specimen.pack->space = Space::plane;
+  }
   if (c.specimen.file) {
     Given& given = layer.find("specimen.file")->second;
     c.specimen.file = find_specimen(file, given);

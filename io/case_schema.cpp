@@ -34,8 +34,9 @@ bool accepts(const Key& key, std::string_view test) {
   return std::find(refused.begin(), refused.end(), test) == refused.end();
 }
 
-std::string_view standard_of(const Key& key, std::string_view test) {
-  return test == "bts" && !key.standard_of_bts.empty() ? key.standard_of_bts : key.standard;
+std::string_view standard_of(const Key& key, std::string_view test, Space space) {
+  if (test == "bts" && !key.standard_of_bts.empty()) return key.standard_of_bts;
+  return space == Space::plane && !key.standard_of_plane.empty() ? key.standard_of_plane : key.standard;
 }
 
 std::vector<std::string> key_names(std::string_view test, std::string_view table) {

@@ -159,8 +159,8 @@ Reading read_value(const Key& key, const TomlNode& node) {
   return reading;
 }
 
-Reading read_standard(const Key& key, std::string_view test) {
-  const std::string text(standard_of(key, test));
+Reading read_standard(const Key& key, std::string_view test, Space space) {
+  const std::string text(standard_of(key, test, space));
   TomlNode node{text, "default", 0};
   if (key.kind == Kind::boolean) node.value = text == "true";
   if (key.kind == Kind::whole_number) node.value = std::int64_t{std::stoll(text)};

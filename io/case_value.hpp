@@ -15,8 +15,8 @@ namespace breccia {
 /// @throws BadInput with the node's place and the key
 Reading read_value(const Key&, const TomlNode&);
 
-/// The default of a key for a test; the key must have one.
-Reading read_standard(const Key&, std::string_view test);
+/// The default of a key for a test in the solid or in the plane; the key must have one.
+Reading read_standard(const Key&, std::string_view test, Space space = Space::solid);
 
 /// The value as TOML with a readable unit; reads back to the same value.
 std::string write_value(const Key&, const Reading&);

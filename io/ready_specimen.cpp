@@ -9,11 +9,12 @@ namespace breccia {
 Specimen make_specimen(const Case& c, Progress& progress) {
   const SpecimenCase& s = c.specimen;
   if (s.pack) {
-    say(progress, fmt::format("packing {} spheres", s.pack->spheres));
+    say(progress,
+        fmt::format("packing {} {}", s.pack->spheres, s.space == Space::plane ? "discs" : "spheres"));
     return pack_spheres(s.body, *s.pack);
   }
-  Specimen specimen = place_specimen(read_specimen(*s.file), s.axis, s.centre);
-  check_specimen(specimen, s.body);
+  Specimen specimen = place_specimen(read_specimen(*s.file), s.axis, s.centre, s.space);
+  check_specimen(specimen, s.body, s.space);
   return specimen;
 }
 
