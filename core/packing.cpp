@@ -57,10 +57,10 @@ void check_fit(const Region& region, double largest_radius) {
 
 /// Scales the radii so that the sum of the spheres' volumes is (1 - porosity) of the body's.
 void scale_to_porosity(const Region& region, double porosity, std::vector<double>& radii) {
-  double sum = 0;
-  for (const double r : radii) sum += volume_of(r, region.space);
-  const double ratio = (1 - porosity) * volume(region) / sum;
-  const double factor = region.plane() ? std::sqrt(ratio) : std::cbrt(ratio);
+  double powers = 0;
+  for (const double r : radii) powers += region.plane() ? r * r : r * r * r;
+  const double wanted = (1 - porosity) * volume(region) / volume_of(1, region.space);
+  const double factor = region.plane() ? std::sqrt(wanted / powers) : std::cbrt(wanted / powers);
   for (double& r : radii) r *= factor;
   check_fit(region, radii.front());
 }
