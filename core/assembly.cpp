@@ -36,7 +36,7 @@ struct Holder {
         return std::abs(x.x) < half_width && std::hypot(x.x, x.z) + s.radius > edge ? side : free_part;
       case Grip::halves:
         return std::abs(x.z) > edge ||
-                       (std::abs(x.z) > half_width && at_mantle(*body, x, s.radius, mean_radius))
+                       (std::abs(x.z) > half_width && at_mantle(*body, Space::solid, x, s.radius, mean_radius))
                    ? side
                    : free_part;
     }
@@ -170,8 +170,9 @@ double Assembly::load_section() const {
   return grip == Grip::strips ? 0.5 * pi * body.diameter * body.height : section();
 }
 
-bool at_mantle(const Body& body, const Vec3& centre, double radius, double mean_radius) {
+bool at_mantle(const Body& body, Space space, const Vec3& centre, double radius, double mean_radius) {
   const double reach = radius + 0.3 * mean_radius;
+  if (space == Space::plane && body.shape == Shape::box) return std::abs(centre.x) + reach > 0.5 * body.diameter;
   if (body.shape == Shape::box)
     return std::abs(centre.x) + reach > 0.5 * body.diameter || std::abs(centre.y) + reach > 0.5 * body.depth;
   return std::hypot(centre.x, body.on_edge ? centre.z : centre.y) + reach > 0.5 * body.diameter;
@@ -202,7 +203,7 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
     const Part part = part_of(s);
     if (part == free_part) p.free = row + 1;
     if (part != upper_part) a.first_top = row + 1;
-    if (at_mantle(body, s.centre, s.radius, a.mean_radius)) a.skin.push_back(static_cast<Row>(row));
+    if (at_mantle(body, a.space, s.centre, s.radius, a.mean_radius)) a.skin.push_back(static_cast<Row>(row));
   }
   if (p.free == 0 || a.first_top == p.free || a.first_top == n)
     fail<BadInput>(

@@ -51,7 +51,7 @@ inline double strain_length_of(double rest_length, double radius_sum) {
 }
 
 /// True where a sphere reaches the nominal mantle to within 0.3 mean radii.
-bool at_mantle(const Body& body, const Vec3& centre, double radius, double mean_radius);
+bool at_mantle(const Body& body, Space space, const Vec3& centre, double radius, double mean_radius);
 
 /// @param specimen  loaded along z, middle at the origin
 /// @param features  those that run; columns are made for them

@@ -13,8 +13,11 @@ struct Grid {
   Vec3 edge;  // m
   int nx, ny, nz;
 
-  Grid(const Body& body, double side)
-      : edge(extent(body)), nx(cells(edge.x, side)), ny(cells(edge.y, side)), nz(cells(edge.z, side)) {}
+  Grid(const Region& region, double side)
+      : edge(extent(region)),
+        nx(cells(edge.x, side)),
+        ny(region.plane() ? 1 : cells(edge.y, side)),
+        nz(cells(edge.z, side)) {}
   static int cells(double length, double side) {
     return std::clamp(static_cast<int>(length / side), 1, 1000);
   }
@@ -48,14 +51,14 @@ Sorted sort_into(const Grid& grid, std::span<const Vec3> x) {
 
 }  // namespace
 
-std::vector<std::uint32_t> spatial_order(const Body& body, std::span<const Vec3> x, double side) {
-  return sort_into(Grid(body, side), x).rows;
+std::vector<std::uint32_t> spatial_order(const Region& region, std::span<const Vec3> x, double side) {
+  return sort_into(Grid(region, side), x).rows;
 }
 
-Neighbours find_neighbours(const Body& body, std::span<const Vec3> x, std::span<const double> r, double reach,
-                           double skin) {
+Neighbours find_neighbours(const Region& region, std::span<const Vec3> x, std::span<const double> r,
+                           double reach, double skin) {
   const std::size_t n = x.size();
-  const Grid grid(body, std::cbrt(volume(body) / static_cast<double>(n)));
+  const Grid grid(region, spacing(region, n));
   const Sorted sorted = sort_into(grid, x);
 
   // Fixed blocks of rows: what a block finds does not depend on the thread that it falls to.

@@ -15,10 +15,10 @@ struct Neighbours {
 
 /// Pairs nearer than reach*(ri + rj) + skin, m. Wide distributions cost no more than narrow ones: cells are
 /// as large as a mean sphere and each pair is found by its larger sphere only.
-Neighbours find_neighbours(const Body& body, std::span<const Vec3> x, std::span<const double> r, double reach,
-                           double skin);
+Neighbours find_neighbours(const Region& region, std::span<const Vec3> x, std::span<const double> r,
+                           double reach, double skin);
 
 /// Rows in the order of cells about `side` wide: those near in space come near in memory.
-std::vector<std::uint32_t> spatial_order(const Body& body, std::span<const Vec3> x, double side);
+std::vector<std::uint32_t> spatial_order(const Region& region, std::span<const Vec3> x, double side);
 
 }  // namespace breccia::packing

@@ -46,6 +46,9 @@ double wall_force(double distance, double r) {
   return overlap * std::max(0.0, 1 + overlap / (wall_range * 2 * r));
 }
 
+/// Fakhimi & Villegas (2007): no friction, no bond, one stiffness; unit k_n.
+double linear_force(double overlap) { return std::max(overlap, 0.0); }
+
 struct Sums {
   double power = 0, force2 = 0, speed2 = 0, overlap = 0;
   std::size_t overlaps = 0;
@@ -67,8 +70,11 @@ void for_blocks(std::size_t rows, F&& f) {
             [&](std::size_t b) { f(b, b * block, std::min(rows, (b + 1) * block)); });
 }
 
-Sums forces(const Body& body, double cohesion, std::span<const double> r, std::span<const Vec3> x, State& s) {
-  const double reach = cohesion > 0 ? 1 + pull_range : 1;
+double reach_of(const RelaxStage& stage) { return stage.cohesion > 0 ? 1 + pull_range : 1; }
+
+Sums forces(const Region& region, const RelaxStage& stage, std::span<const double> r, std::span<const Vec3> x,
+            State& s) {
+  const double reach = reach_of(stage);
   std::vector<Sums> parts((x.size() + block - 1) / block);
   for_blocks(x.size(), [&](std::size_t b, std::size_t begin, std::size_t end) {
     Sums part;
@@ -80,11 +86,14 @@ Sums forces(const Body& body, double cohesion, std::span<const double> r, std::s
         const double sum = r[i] + r[j], d2 = dot(d, d);
         if (d2 >= reach * sum * reach * sum || d2 == 0) continue;
         const double length = std::sqrt(d2), overlap = sum - length;
-        f += (pair_force(overlap, r[i], r[j], cohesion) / length) * d;
+        const double force =
+            stage.linear ? linear_force(overlap) : pair_force(overlap, r[i], r[j], stage.cohesion);
+        f += (force / length) * d;
         if (overlap > 0) part.overlap += overlap, ++part.overlaps;
       }
-      for_each_wall(body, x[i],
-                    [&](double distance, const Vec3& inward) { f += wall_force(distance, r[i]) * inward; });
+      for_each_wall(region, x[i], [&](double distance, const Vec3& inward) {
+        f += (stage.linear ? linear_force(r[i] - distance) : wall_force(distance, r[i])) * inward;
+      });
       s.f[i] = f;
       part.power += dot(f, s.v[i]);
       part.force2 += dot(f, f);
@@ -119,8 +128,10 @@ struct Fire {
   }
 };
 
+/// @param margin  of a centre to the walls at least, of its radius
 /// @return the largest distance any sphere has come since neighbours were listed, m
-double move(const Body& body, const Fire& fire, std::span<const double> r, std::span<Vec3> x, State& s) {
+double move(const Region& region, const Fire& fire, double margin, std::span<const double> r,
+            std::span<Vec3> x, State& s) {
   std::vector<double> parts((x.size() + block - 1) / block);
   for_blocks(x.size(), [&](std::size_t b, std::size_t begin, std::size_t end) {
     double most2 = 0;
@@ -129,7 +140,7 @@ double move(const Body& body, const Fire& fire, std::span<const double> r, std::
       Vec3 step = fire.dt * s.v[i];
       const double length = norm(step), limit = 0.2 * r[i];
       if (length > limit) step = (limit / length) * step;
-      x[i] = keep_inside(body, x[i] + step, 0.5 * r[i]);
+      x[i] = keep_inside(region, x[i] + step, margin * r[i]);
       const Vec3 moved = x[i] - s.x_listed[i];
       most2 = std::max(most2, dot(moved, moved));
     }
@@ -140,28 +151,31 @@ double move(const Body& body, const Fire& fire, std::span<const double> r, std::
 
 }  // namespace
 
-void relax(const Body& body, const RelaxStage& stage, std::span<const double> r, std::span<Vec3> x,
+bool relax(const Region& region, const RelaxStage& stage, std::span<const double> r, std::span<Vec3> x,
            const std::function<void(double, double)>& progress) {
   double mean_radius = 0;
   for (const double each : r) mean_radius += each / static_cast<double>(r.size());
-  const double reach = stage.cohesion > 0 ? 1 + pull_range : 1;
 
+  // A linear spring lets a disc in a tight place far into a wall: 0.5 would hold it there, out of balance
+  const double margin = stage.linear ? 0.1 : 0.5;
   State s{std::vector<Vec3>(x.size()), std::vector<Vec3>(x.size()), {}, {}};
   Fire fire;
   double moved = 0;
   for (int k = 0; k < stage.iterations; ++k) {
     if (k == 0 || 2 * moved > skin * mean_radius) {
-      s.near = find_neighbours(body, x, r, reach, skin * mean_radius);
+      s.near = find_neighbours(region, x, r, reach_of(stage), skin * mean_radius);
       s.x_listed.assign(x.begin(), x.end());
     }
-    const Sums sums = forces(body, stage.cohesion, r, x, s);
+    const Sums sums = forces(region, stage, r, x, s);
+    const double mean_overlap = sums.overlaps ? sums.overlap / static_cast<double>(sums.overlaps) : 0.0;
     if (progress && k % 10 == 0)
-      progress(static_cast<double>(k) / stage.iterations,
-               sums.overlaps ? sums.overlap / static_cast<double>(sums.overlaps) / mean_radius : 0.0);
-    if (sums.force2 == 0) return;  // loose: nobody touches anybody
+      progress(static_cast<double>(k) / stage.iterations, mean_overlap / mean_radius);
+    if (sums.force2 == 0) return true;  // loose: nobody touches anybody
+    if (std::sqrt(sums.force2 / static_cast<double>(x.size())) < stage.balance * mean_overlap) return true;
     fire.adapt(sums);
-    moved = move(body, fire, r, x, s);
+    moved = move(region, fire, margin, r, x, s);
   }
+  return false;
 }
 
 }  // namespace breccia::packing

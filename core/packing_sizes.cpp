@@ -27,17 +27,18 @@ double normal_quantile(double u) {
 }
 
 /// One class between two sieves. Mass is spread evenly over ln d (a straight line on the usual
-/// semi-logarithmic plot), so the density of the number of spheres over ln d falls as d^-3.
+/// semi-logarithmic plot), so the density of the number of spheres over ln d falls as d^-3 (discs: d^-2).
 struct SieveClass {
   double finest, coarsest;  // m, diameters
   double number;            // spheres up to a common factor, then their cumulative fraction
+  int dimensions;
   double diameter(double u) const {
-    const double a = std::pow(finest, -3), b = std::pow(coarsest, -3);
-    return std::pow(a + u * (b - a), -1.0 / 3);
+    const double a = std::pow(finest, -dimensions), b = std::pow(coarsest, -dimensions);
+    return std::pow(a + u * (b - a), -1.0 / dimensions);
   }
 };
 
-std::vector<SieveClass> classes(const SizeDistribution& sizes, std::size_t n) {
+std::vector<SieveClass> classes(const SizeDistribution& sizes, std::size_t n, int dimensions) {
   const auto& d = sizes.sieve_openings;
   const auto& passing = sizes.sieve_passing;
   std::vector<SieveClass> all;
@@ -45,8 +46,9 @@ std::vector<SieveClass> classes(const SizeDistribution& sizes, std::size_t n) {
   for (std::size_t k = 1; k < d.size(); ++k) {
     const double mass = passing[k] - passing[k - 1];
     if (mass <= 0) continue;  // gap-graded
-    const double number = mass * (std::pow(d[k - 1], -3) - std::pow(d[k], -3)) / std::log(d[k] / d[k - 1]);
-    all.push_back({d[k - 1], d[k], number});
+    const double number =
+        mass * (std::pow(d[k - 1], -dimensions) - std::pow(d[k], -dimensions)) / std::log(d[k] / d[k - 1]);
+    all.push_back({d[k - 1], d[k], number, dimensions});
     sum += number;
   }
   double below = 0;
@@ -104,9 +106,10 @@ void check_sizes(const SizeDistribution& sizes) {
                    passing.back(), d.back());
 }
 
-std::vector<double> draw_radii(const SizeDistribution& sizes, std::size_t n, Random& random) {
+std::vector<double> draw_radii(const SizeDistribution& sizes, std::size_t n, Random& random, Space space) {
   using Kind = SizeDistribution::Kind;
-  const auto all = sizes.kind == Kind::sieves ? classes(sizes, n) : std::vector<SieveClass>{};
+  const int dimensions = space == Space::plane ? 2 : 3;
+  const auto all = sizes.kind == Kind::sieves ? classes(sizes, n, dimensions) : std::vector<SieveClass>{};
   std::vector<double> radii(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double u = (static_cast<double>(i) + uniform01(random)) / static_cast<double>(n);

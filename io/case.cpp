@@ -33,6 +33,7 @@ bool takes_standard(const Key& key, const Layer& layer, const std::string& test)
   const Key* other = rival(key);
   if (other && layer.contains(other->name)) return false;
   if (!is_pack(key.name)) return true;
+  if (key.name == "specimen.pack.porosity" && layer.contains("specimen.pack.genesis_pressure")) return false;
   if (key.name == "specimen.pack.sizes.spread") {
     const auto kind = layer.find("specimen.pack.sizes.kind");
     if (kind != layer.end() && kind->second.reading.word == "sieves") return false;
@@ -69,25 +70,51 @@ struct Checks {
   void body() const {
     const Body& body = c.specimen.body;
     const bool box = body.shape == Shape::box, disc = body.shape == Shape::disc;
-    if (test == "bts" && !disc) no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
+    if (c.specimen.space == Space::plane) return body_in_plane();
     if (!has("specimen.diameter")) no("specimen.diameter", "missing; give the nominal diameter, \"150 mm\"");
     if (!has("specimen.height"))
       no("specimen.height", "missing; give the nominal height along the axis, \"300 mm\"");
     if (box && !has("specimen.depth"))
       no("specimen.depth", "missing; a box has its width along x as diameter, and a depth");
     if (!box && has("specimen.depth")) no("specimen.depth", "belongs to shape = \"box\"; leave it out");
+    if (test == "bts" && !disc) no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
+    if (test == "biaxial") no("specimen.dimensions", "a biaxial test has two; valid: 2 (in three: breccia-triaxial)");
     if (test == "pack" || test == "bts") return;
-    const bool boxes = test == "ucs" || test == "tension" || test == "shear" || test == "biaxial";
-    if (disc || (box && !boxes) || (!box && test == "biaxial")) {
+    const bool boxes = test == "ucs" || test == "tension" || test == "shear";
+    if (disc || (box && !boxes)) {
       const std::string text = fmt::format(
           "{}: specimen.shape \"{}\" does not go with breccia-{}; valid: {}", place("specimen.shape"),
           disc ? "disc" : box ? "box" : "cylinder", test,
-          test == "biaxial" ? "\"box\"" : boxes ? "\"cylinder\", \"box\"" : "\"cylinder\"");
+          boxes ? "\"cylinder\", \"box\"" : "\"cylinder\"");
       throw BadInput(text);
     }
   }
 
+  void body_in_plane() const {
+    const Shape shape = c.specimen.body.shape;
+    if (test == "triaxial" || test == "usc" || test == "hydrostatic" || test == "shear")
+      no("specimen.dimensions", fmt::format("breccia-{} has three; valid: 3{}", test,
+                                            test == "triaxial" ? " (in two: breccia-biaxial)" : ""));
+    if (shape == Shape::cylinder)
+      no("specimen.shape", "a 2-D scene has no cylinder; valid: \"box\" (a rectangle), \"disc\" (a circle)");
+    if (test == "bts" && shape != Shape::disc)
+      no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
+    if (!has("specimen.diameter"))
+      no("specimen.diameter",
+         "missing; give the diameter of the circle or the width of the rectangle, \"50 mm\"");
+    if (shape == Shape::box && !has("specimen.height"))
+      no("specimen.height", "missing; give the height of the rectangle, \"100 mm\"");
+    if (shape == Shape::disc && test != "bts" && test != "pack")
+      no("specimen.shape", fmt::format("breccia-{} presses a rectangle; valid: \"box\"", test));
+    if (shape == Shape::disc && has("specimen.height"))
+      no("specimen.height", "a disc in a 2-D scene is 1 m thick; leave it out");
+    if (has("specimen.depth")) no("specimen.depth", "a 2-D scene is 1 m thick; leave it out");
+  }
+
   void packing() const {
+    if (has("specimen.pack.genesis_pressure") && c.specimen.space != Space::plane)
+      no("specimen.pack.genesis_pressure",
+         "presses discs in a plane; write specimen.dimensions = 2 or leave it out");
     if (c.specimen.axis != 'z') no("specimen.axis", "a packing made here has its axis along z; valid: \"z\"");
     if (c.specimen.centre) no("specimen.centre", "belongs to specimen.file; a packing made here is centred");
     if (!has("specimen.pack.spheres")) no("specimen.pack.spheres", "missing; give the number of spheres");
@@ -211,8 +238,13 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   for (const LawStandard& standard : facts_of(law).standards)
     if (const Key& key = *find_key(standard.key); test != "pack" && !layer.contains(key.name))
       layer[std::string(key.name)] = {read_standard_text(key, standard.value), ""};
+  const Key& dimensions = *find_key("specimen.dimensions");
+  const auto asked = layer.find(dimensions.name);
+  const bool plane =
+      (asked == layer.end() ? read_standard(dimensions, test) : asked->second.reading).whole == 2;
   for (const Key& key : all_keys())
-    if (takes_standard(key, layer, test)) layer[std::string(key.name)] = {read_standard(key, test), ""};
+    if (takes_standard(key, layer, test))
+      layer[std::string(key.name)] = {read_standard(key, test, plane ? Space::plane : Space::solid), ""};
 
   Case c;
   c.source = file;
@@ -221,6 +253,10 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
       key.store(c, given->second.reading);
   const Checks checks{layer, c, test, file.string()};
   checks.specimen();
+  if (plane) {
+    if (c.specimen.body.shape == Shape::disc) c.specimen.body.height = c.specimen.body.diameter;
+    if (c.specimen.pack) c.specimen.pack->space = Space::plane;
+  }
   if (test != "pack") checks.loading();
   if (c.specimen.file) {
     Given& given = layer.find("specimen.file")->second;

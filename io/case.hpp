@@ -16,9 +16,9 @@ namespace breccia {
 struct SpecimenCase {
   std::optional<std::filesystem::path> file;  ///< the case's folder in front
   std::optional<PackRequest> pack;
-  Body body;
   Space space = Space::solid;
-  char axis = 'z';             ///< of the cylinder or disc in the file
+  Body body;                   ///< a disc in the plane: its height is its diameter
+  char axis = 'z';             ///< of the cylinder or disc in the file; in the plane the direction of loading
   std::optional<Vec3> centre;  ///< m; overrides the middle of the box around the spheres
 };
 

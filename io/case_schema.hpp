@@ -35,8 +35,9 @@ struct Key {
   std::string_view name;  ///< with its table: "test.platen_speed"
   Kind kind = Kind::quantity;
   Dimension dimension{};
-  std::string_view standard{};         ///< the default as one writes it; empty: none
-  std::string_view standard_for{};  ///< where a test has another: "bts=disc biaxial=box"
+  std::string_view standard{};           ///< the default as one writes it; empty: none
+  std::string_view standard_for{};       ///< where a test has another: "bts=disc biaxial=smooth"
+  std::string_view standard_of_plane{};  ///< where a 2-D scene has another and the test has none
   Range range{};
   std::string_view words{};       ///< valid words
   std::string_view later{};       ///< words (or true) that a later version brings: refused by name
@@ -61,7 +62,7 @@ std::vector<std::string> key_names(std::string_view test, std::string_view table
 const Key* rival(const Key&);
 
 bool accepts(const Key&, std::string_view test);
-std::string_view standard_of(const Key&, std::string_view test);
+std::string_view standard_of(const Key&, std::string_view test, Space space = Space::solid);
 std::vector<std::string> split_words(std::string_view words);
 
 /// "from 0 to below 0.5", "more than 0 Pa"; empty when anything goes.

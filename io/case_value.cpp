@@ -159,8 +159,8 @@ Reading read_value(const Key& key, const TomlNode& node) {
   return reading;
 }
 
-Reading read_standard(const Key& key, std::string_view test) {
-  return read_standard_text(key, standard_of(key, test));
+Reading read_standard(const Key& key, std::string_view test, Space space) {
+  return read_standard_text(key, standard_of(key, test, space));
 }
 
 Reading read_standard_text(const Key& key, std::string_view standard) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/scene_options.hpp"
 #include "core/specimen.hpp"
 
 namespace breccia {
@@ -19,7 +20,12 @@ Specimen read_specimen(const std::filesystem::path& file);
 
 /// Turns the axis to z by a cyclic permutation of the coordinates and moves the middle of the box around the
 /// spheres, or `centre` (m, in the coordinates of the file), to the origin.
-Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {});
+///
+/// In the plane the axis becomes z, the coordinate that is the same for all discs becomes y = 0, and the
+/// third one x.
+/// @throws BadInput in the plane: centres do not lie in one plane along the axis, to 1e-9 of the specimen's
+/// size
+Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {}, Space space = Space::solid);
 
 /// Stands a disc that is in place (axis along z) on its edge: its axis becomes y, the diameter to press z. A
 /// rotation, never a mirror.
@@ -30,7 +36,7 @@ Specimen stand_disc(Specimen, char axis, std::optional<char> load_axis);
 /// Checks a specimen that is in place.
 /// @throws BadInput: no sphere, two spheres with one centre, a centre outside the body by more than 2 % of
 /// the diameter
-void check_specimen(const Specimen&, const Body&);
+void check_specimen(const Specimen&, const Body&, Space space = Space::solid);
 
 /// Writes spheres as .csv such that they read back bit for bit; aside first, then renamed.
 /// @throws FileTrouble

@@ -13,11 +13,12 @@ namespace breccia {
 Specimen make_specimen(const Case& c, Progress& progress) {
   const SpecimenCase& s = c.specimen;
   if (s.pack) {
-    say(progress, fmt::format("packing {} spheres", s.pack->spheres));
+    say(progress,
+        fmt::format("packing {} {}", s.pack->spheres, s.space == Space::plane ? "discs" : "spheres"));
     return pack_spheres(s.body, *s.pack);
   }
-  Specimen specimen = place_specimen(read_specimen(*s.file), s.axis, s.centre);
-  check_specimen(specimen, s.body);
+  Specimen specimen = place_specimen(read_specimen(*s.file), s.axis, s.centre, s.space);
+  check_specimen(specimen, s.body, s.space);
   return specimen;
 }
 
@@ -73,7 +74,11 @@ ReadySpecimen make_ready(const Case& c, const std::string& test, const Features&
   BondingRule rule{c.bonds.range, c.bonds.coordination, c.bonds.area, c.bonds.strength_area,
                    c.specimen.space, Grip::ends};
   const Specimen specimen = make_specimen(c, progress);
-  const Body& body = c.specimen.body;
+  Body body = c.specimen.body;
+  if (c.specimen.space == Space::plane) {  // one metre thick
+    if (body.shape == Shape::box) body.depth = 1.0;
+    else body.height = 1.0;
+  }
   ReadySpecimen ready;
   const auto bonded = [&](const Specimen& s, const Body& b, Grip grip) {
     rule.grip = grip;

@@ -633,11 +633,59 @@ TEST_CASE("case: every declaration is whole, and the printed reference lists it"
   CHECK(describe_keys("pack").find("[bonds]") == std::string::npos);
 }
 
+TEST_CASE("case: two dimensions: defaults and what does not go together") {
+  const std::string flat = "[specimen]\ndimensions = 2\ndiameter = \"39 mm\"\n";  // lines 1 to 3
+  const std::string tall = "height = \"78 mm\"\n";
+  const Case loose = load(flat + tall + "pack.spheres = 100\n", "pack");
+  CHECK(loose.specimen.space == Space::plane);
+  CHECK(loose.specimen.body.shape == Shape::box);
+  CHECK(loose.specimen.pack->space == Space::plane);
+  CHECK(loose.specimen.pack->porosity == 0.11);
+  CHECK(loose.specimen.pack->genesis_pressure == 0);
+  CHECK(loose.resolved.find("dimensions = 2\n") != std::string::npos);
+  CHECK(load(loose.resolved, "pack").resolved == loose.resolved);
+  CHECK(load(good).specimen.space == Space::solid);
+  CHECK(load(pack, "pack").specimen.pack->space == Space::solid);
+  CHECK(load(pack, "pack").specimen.pack->porosity == 0.26);
+
+  const Case pressed =
+      load(flat + "shape = \"disc\"\npack.spheres = 100\npack.genesis_pressure = 0.08\n", "pack");
+  CHECK(pressed.specimen.pack->genesis_pressure == 0.08);
+  CHECK(pressed.resolved.find("porosity") == std::string::npos);  // found, not asked for
+  CHECK(pressed.specimen.body.height == pressed.specimen.body.diameter);
+  CHECK(load(flat + tall + "pack.spheres = 9\npack.genesis_pressure = 0.08\npack.porosity = 0.2\n", "pack")
+            .specimen.pack->porosity == 0.2);
+
+  const auto refused = [&](const std::string& lines, const std::string& wanted) {
+    says(complaint(flat + lines, "pack"), wanted);
+  };
+  refused("pack.spheres = 9\n", "c.toml: specimen.height: missing; give the height of the rectangle");
+  refused("depth = 1\n" + tall + "pack.spheres = 9\n", "c.toml:4: specimen.depth: a 2-D scene is 1 m thick");
+  refused("shape = \"cylinder\"\npack.spheres = 9\n",
+          "c.toml:4: specimen.shape: a 2-D scene has no cylinder");
+  refused("shape = \"disc\"\n" + tall + "pack.spheres = 9\n",
+          "c.toml:5: specimen.height: a disc in a 2-D scene");
+  refused("pack.spheres = 9\npack.genesis_pressure = 0\n", "c.toml:5: specimen.pack.genesis_pressure: ");
+  refused("pack.spheres = 9\npack.genesis_pressure = 0.13\n", "c.toml:5: specimen.pack.genesis_pressure: ");
+  says(complaint(body + "pack.spheres = 9\npack.genesis_pressure = 0.1\n", "pack"),
+       "c.toml:5: specimen.pack.genesis_pressure: presses discs in a plane; write specimen.dimensions = 2");
+  for (const char* number : {"1", "4"})
+    says(complaint(body + "dimensions = " + number + "\npack.spheres = 9\n", "pack"),
+         "c.toml:4: specimen.dimensions: ");
+  for (const char* test : {"ucs", "triaxial"})
+    says(complaint(flat + tall + "pack.spheres = 9\n[material]\npreset = \"concrete\"\n", test),
+         "c.toml:2: specimen.dimensions: 2 is not in this version for breccia-");
+  says(complaint(flat + tall + "shape = \"box\"\npack.spheres = 9\n[material]\npreset = \"concrete\"\n",
+                 "bts"),
+       "c.toml:5: specimen.shape: a Brazilian test presses a disc");
+}
+
 TEST_CASE("case: the examples in data/cases load") {
   const std::filesystem::path cases = std::filesystem::path(BRECCIA_SOURCE_DIR) / "data/cases";
   CHECK(load_case(cases / "ucs-concrete.toml", {}, "ucs").specimen.pack->spheres == 4000);
   CHECK(load_case(cases / "ucs-concrete.toml", {}, "pack").specimen.body.diameter == 0.15);
   CHECK(load_case(cases / "triaxial-concrete.toml", {}, "triaxial").materials.size() == 4);
+  CHECK(load_case(cases / "pack-discs.toml", {}, "pack").specimen.pack->genesis_pressure == 0.08);
   const Case cement = load_case(cases / "triaxial-cement.toml", {}, "triaxial");
   CHECK(cement.specimen.body.diameter == 0.0254);
   CHECK(cement.specimen.body.height == 0.04826);

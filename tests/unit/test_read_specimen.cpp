@@ -208,6 +208,45 @@ TEST_CASE("specimen/check: centres in one place and centres outside are refused 
   says(complaint_of([&] { check_specimen({}, body); }), "no sphere in the specimen");
 }
 
+TEST_CASE("specimen/place: in the plane the axis turns to z and the flat coordinate to y = 0") {
+  const auto placed = [](const Vec3& a, const Vec3& b, char axis, std::optional<Vec3> centre = {}) {
+    const Specimen s = place_specimen(two(a, b), axis, centre, Space::plane);
+    return std::pair{s.spheres[0].centre, s.spheres[1].centre};
+  };
+  const std::pair wanted{Vec3{-1, 0, -2}, Vec3{1, 0, 2}};
+  CHECK(placed({-1, 7, -2}, {1, 7, 2}, 'z') == wanted);  // in the x-z plane
+  CHECK(placed({7, -1, -2}, {7, 1, 2}, 'z') == wanted);  // in the y-z plane
+  CHECK(placed({-1, -2, 7}, {1, 2, 7}, 'y') == wanted);  // in the x-y plane
+  CHECK(placed({-2, -1, 7}, {2, 1, 7}, 'x') == wanted);
+  CHECK(placed({-2, 7, -1}, {2, 7, 1}, 'x') == wanted);
+  CHECK(placed({-1, 7, -2}, {1, 7 + 3e-9, 2}, 'z') == wanted);  // 1e-9 of the size, 4
+  CHECK(placed({-1, 7, -2}, {1, 7, 2}, 'z', Vec3{1, 0, 2}) == std::pair{Vec3{-2, 0, -4}, Vec3{0, 0, 0}});
+  CHECK(placed({0, 0, -2}, {0, 0, 2}, 'z') == std::pair{Vec3{0, 0, -2}, Vec3{0, 0, 2}});
+  says(complaint_of([&] {
+         placed({-1, 7, -2}, {1, 7 + 1e-8, 2}, 'z');
+       }),
+       "s.csv:3: a 3-D mesh in a 2-D scene");
+  says(complaint_of([&] {
+         placed({-1, -2, 7}, {1, 2, 7}, 'z');
+       }),
+       "s.csv:3: a 3-D mesh in a 2-D scene: along x");
+  CHECK_NOTHROW(place_specimen({}, 'z', {}, Space::plane));  // the check for no sphere at all comes later
+}
+
+TEST_CASE("specimen/check: centres outside a rectangle or a circle in the plane") {
+  const auto complaint = [](const Vec3& b, const Body& body) {
+    return complaint_of([&] { check_specimen(two({0, 0, 0}, b), body, Space::plane); });
+  };
+  const Body box{Shape::box, 0.1, 0, 0.2}, disc{Shape::disc, 0.1, 0, 0.1};
+  CHECK(complaint({0.0519, 0, 0.1019}, box) == "accepted");
+  says(complaint({0.055, 0, 0}, box),
+       "s.csv:3: the centre of sphere 9 lies 5 mm outside the rectangle 100 mm x 200 mm");
+  says(complaint({0, 0, 0.105}, box), "s.csv:3: the centre of sphere 9 lies 5 mm outside");
+  CHECK(complaint({0.036, 0, 0.036}, disc) == "accepted");
+  says(complaint({0.04, 0, 0.04}, disc),
+       "s.csv:3: the centre of sphere 9 lies 6.569 mm outside the disc D 100 mm");
+}
+
 TEST_CASE("specimen/write: a specimen reads back bit for bit") {
   const ScratchFolder folder;
   std::mt19937_64 random(3);
