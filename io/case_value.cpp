@@ -167,6 +167,8 @@ Reading read_standard_text(const Key& key, std::string_view standard) {
   const std::string text(standard);
   TomlNode node{text, "default", 0};
   if (key.kind == Kind::boolean) node.value = text == "true";
+  if (key.kind == Kind::word_or_number && text.find_first_not_of("0123456789.") == std::string::npos)
+    node.value = std::stod(text);
   if (key.kind == Kind::whole_number) node.value = std::int64_t{std::stoll(text)};
   return read_value(key, node);
 }

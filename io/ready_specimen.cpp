@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/elastic_network.hpp"
 #include "core/law_of_material.hpp"
+#include "core/section_area.hpp"
 #include "io/case_material.hpp"
 #include "io/read_specimen.hpp"
 #include "kernels/bond_pass.hpp"
@@ -67,6 +69,24 @@ AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, 
 }
 
 }  // namespace
+
+std::string describe_elasticity(const Case& c, const ReadySpecimen& ready, int threads) {
+  Assembly a = ready.assembly;
+  if (a.grip != Grip::ends) return "";
+  const Material& m = c.materials.front();
+  const double reach = 0.4 * a.length();  // the levels of the thesis' table 5.1, away from the ends
+  const double covered = area_through_levels(a.particles, a.bonds, std::span(a.bonds.area).first(a.bonds.size),
+                                             -reach, reach, 41)
+                             .mean /
+                         a.section();
+  for (double& area : a.bonds.area) area *= ready.factor.alpha;
+  const BondLaw law = law_of(m, ready.factor.shear_ratio);
+  const double ratio = std::visit([](const auto& l) { return l.shear_ratio; }, law);
+  const ElasticResponse e =
+      probe(a, bond_stiffness(law, a.particles, a.bonds), ratio, c.test.rough_platens, threads);
+  return fmt::format("specimen: E {:.7g} GPa, nu {:.6f} with k_s/k_n {:.4f}; their areas cover a section {:.4f} times",
+                     e.young_modulus * 1e-9, e.poisson_ratio, ratio, covered);
+}
 
 ReadySpecimen make_ready(const Case& c, const std::string& test, const Features& asked, int threads,
                          Progress& progress) {

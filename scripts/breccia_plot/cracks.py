@@ -52,27 +52,40 @@ def runs_with_cracks(path):
         return []
     try:
         with h5py.File(path, "r") as file:
-            names = [name for name in file if re.fullmatch(r"run-\d+", name) and "cracks/time_s" in file[name]]
-            return sorted(int(name[4:]) for name in names if file[name]["cracks/time_s"].size)
+            runs = sorted(int(name[4:]) for name in file if re.fullmatch(r"run-\d+", name))
+        return [k for k in runs if has_rows(path.parent / f"cracks-{k}.csv")]
     except OSError:
         return []  # damaged: the picture of the specimen says so
 
 
+def has_rows(path):
+    if not path.exists():
+        return False
+    with path.open() as file:
+        return sum(1 for _, line in zip(range(2), file)) == 2
+
+
 def read_record(path, k):
-    """The record in the order of time, the mean length of a bond (m), and the spheres."""
+    """The record in the order of time, from cracks-K.csv; the mean length of a bond (m) and the spheres, from results.h5
+    beside it."""
+    record = path.parent / f"cracks-{k}.csv"
+    try:
+        table = np.atleast_1d(np.genfromtxt(record, delimiter=",", names=True))
+        table = table[np.argsort(table["time_s"], kind="stable")]
+        time, strain, mode = table["time_s"], table["axial_strain"], table["mode"]
+        position = np.stack([table[name] for name in ("x_m", "y_m", "z_m")], axis=1)
+        normal = np.stack([table[name] for name in ("nx", "ny", "nz")], axis=1)
+        area, energy = table["area_m2"], table["energy_J"]
+    except (OSError, KeyError, IndexError, ValueError) as reason:
+        raise BadInput(f"{record}: cannot be read: {' '.join(str(reason).split())}") from reason
     try:
         with h5py.File(path, "r") as file:
-            run = file[f"run-{k}"]
-            names = ("time_s", "axial_strain", "position_m", "normal", "mode", "area_m2", "energy_J")
-            columns = [run["cracks"][name][:] for name in names]
-            length = float(run["bonds/rest_length"][:].mean())
+            length = float(file[f"run-{k}"]["bonds/rest_length"][:].mean())
         spheres = results.spheres(path, k)
-        order = np.argsort(columns[0], kind="stable")
-        time, strain, position, normal, mode, area, energy = (column[order] for column in columns)
     except (OSError, KeyError, IndexError) as reason:
-        raise BadInput(f"{path}: run-{k}/cracks cannot be read: {reason}") from reason
+        raise BadInput(f"{path}: run-{k} cannot be read: {reason}") from reason
     if not (np.isfinite(time).all() and np.isfinite(position).all()):
-        raise BadInput(f"{path}: run-{k}/cracks has times or positions that are not numbers")
+        raise BadInput(f"{record}: times or positions that are not numbers")
     return Record(time, strain, position, normal, mode == results.SHEAR_STATE, area, energy), length, spheres
 
 

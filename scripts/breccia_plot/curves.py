@@ -82,8 +82,9 @@ def last_point(x, y):
 
 def draw_volume(axes, series, runs, styles):
     drawn = [run for run in runs if np.isfinite(run.curve.get("volumetric_strain", np.nan)).any()]
+    sign = -1 if series.test == "shear" else 1  # contraction is positive; a shear box is read by its dilation
     for run in drawn:
-        axes.plot(100 * run.curve["axial_strain"], 100 * run.curve["volumetric_strain"], **styles[run.index])
+        axes.plot(100 * run.curve["axial_strain"], sign * 100 * run.curve["volumetric_strain"], **styles[run.index])
     axes.axhline(0, color=SOFT, linewidth=0.8)
     if drawn:
         longest = 100 * max(np.nanmax(np.abs(run.curve["axial_strain"])) for run in drawn)
@@ -96,7 +97,7 @@ def draw_volume(axes, series, runs, styles):
     axes.set_title("Dilation" if series.test == "shear" else "Change of volume")
     if len(drawn) > 1:
         place_labels(axes, [(megapascal(run.confinement), styles[run.index]["color"],
-                             beside(*last_point(100 * run.curve["axial_strain"], 100 * run.curve["volumetric_strain"])))
+                             beside(*last_point(100 * run.curve["axial_strain"], sign * 100 * run.curve["volumetric_strain"])))
                             for run in drawn])
 
 
