@@ -16,10 +16,11 @@ struct DempackLaw {
   static constexpr std::array<LawParameter, 0> own{};
   static constexpr std::array<LawStandard, 0> standards{};
   static constexpr std::array feature_sets{
-      Features{.plasticity = false, .breakage = false}, Features{.plasticity = false},
+      Features{.plasticity = false, .breakage = false},
+      Features{.plasticity = false},
+      Features{.rotation = false},  // before the next: a scene runs the first set that covers it
       Features{},
       Features{.criterion = Criterion::coupled},
-      Features{.rotation = false},
   };
 
   double young = 0;                      ///< Pa; E of the bonds: k_n = E A/L

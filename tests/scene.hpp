@@ -35,7 +35,9 @@ inline Material material_of(const reference::Parameters& p) {
 }
 
 inline double shear_ratio(const reference::Parameters& p) { return p.kappa ? *p.kappa : 1 / (2 * (1 + p.nu)); }
-inline DempackLaw law(const reference::Parameters& p) { return law_of(material_of(p), shear_ratio(p)); }
+inline DempackLaw law(const reference::Parameters& p) {
+  return std::get<DempackLaw>(law_of(material_of(p), shear_ratio(p)));
+}
 inline Features features(const reference::Parameters& p) {
   return {p.rotation, p.contact_damping, p.plasticity, p.breakage, static_cast<Criterion>(p.criterion)};
 }
@@ -85,7 +87,7 @@ inline Assembly free_body(const std::vector<Ball>& balls, double beta, const Fea
 
 inline WorldOptions options(const reference::Parameters& p) {
   WorldOptions o;
-  o.features = built_features(features(p));
+  o.features = built_features(law(p), features(p));
   o.new_contacts = p.unbonded_contacts;
   o.contact_damping = p.xi;
   o.global_damping = {p.damping_translation, p.damping_rotation};
@@ -136,6 +138,26 @@ inline reference::World to_reference(const World& w, const reference::Parameters
   return r;
 }
 
+/// What the bond pass of a world reads and changes.
+inline BondPassIn bond_pass_in(const World& w) {
+  const ParticleTable& p = w.particles;
+  const BondTable& b = w.bonds;
+  return {w.dt,     constants_of(w.law), p.position, p.velocity,        p.spin,      p.radius, b.row_lo,
+          b.row_hi, b.rest_length,       b.area,     strength_areas(b), b.stiffness, b.damping};
+}
+inline BondPassHistory bond_history(BondTable& b) {
+  return {b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear};
+}
+
+/// Speeds of the lower and the upper platen along z, m/s.
+inline void drive(World& w, double lower, double upper) {
+  w.platens.velocity = {Vec3{0, 0, lower}, Vec3{0, 0, upper}};
+}
+/// Pa, of each platen, positive in compression.
+inline std::array<double, 2> platen_stress(const Platens& p) {
+  return {-p.force[0].z / p.section, p.force[1].z / p.section};
+}
+
 /// Forces and torques that the next step will see, without moving anything.
 struct Forces {
   std::vector<Vec3> force, torque;
@@ -147,12 +169,10 @@ inline Forces forces_now(World w) {  // a copy: history advances
   Scatter to;
   to.row_lo = to.to_lo = b.row_lo, to.row_hi = to.to_hi = b.row_hi;
   to.radius = p.radius, to.force = f.force, to.torque = f.torque;
-  w.bond_pass({w.dt, w.law, p.position, p.velocity, p.spin, p.radius, b.row_lo, b.row_hi, b.rest_length, b.area,
-               b.stiffness, b.damping},
-              {b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear}, 0, b.padded, to);
+  w.bond_pass(bond_pass_in(w), bond_history(b), 0, b.padded, to, nullptr);
   ContactTable& c = w.contacts;
   to.row_lo = to.to_lo = c.row_lo, to.row_hi = to.to_hi = c.row_hi;
-  contact_pass({w.dt, w.law.shear_ratio, w.law.friction_dynamic, w.options.features.rotation, p.position, p.velocity,
+  contact_pass({w.dt, w.shear_ratio, w.friction, w.features.rotation, p.position, p.velocity,
                 p.spin, p.radius, c.row_lo, c.row_hi, c.stiffness, c.damping},
                {c.free_length, c.shear_force}, 0, c.size, to);
   return f;

@@ -1,7 +1,7 @@
 // Laboratory tests on a specimen of 500 spheres: what a user would get, small enough for every day.
 #include <doctest/doctest.h>
 
-#include "core/compression.hpp"
+#include "core/load_test.hpp"
 #include "core/strength.hpp"
 #include "tests/scene.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 
 struct Run {
   CurveFindings findings;
-  CompressionResult result;
+  LoadResult result;
   World world;
   double alpha = 0, fabric = 0;
 };
@@ -25,28 +25,26 @@ const Assembly& specimen() {
 Run run(double confinement, double stop_strain, const std::function<void(const World&)>& at_stage_2 = {}) {
   reference::Parameters p;  // concrete, MODEL section 10
   AreaFactorRequest request;
-  request.young_modulus = p.E;
-  request.poisson_ratio = p.nu;
+  request.material = scene::material_of(p);
   const AreaFactor factor = find_area_factor(specimen(), request, 2);
   WorldOptions o;
   o.threads = 2;
-  o.features = built_features(Features{});
   Run r;
   r.alpha = factor.alpha;
   r.fabric = factor.fabric;
   r.world = make_world(specimen(), scene::material_of(p), factor, o);
-  CompressionTest test;
+  LoadTest test;
   test.confinement = confinement;
   test.stop_strain = stop_strain;
   test.stop_after_peak = 0.3;
   test.frames = 1;
-  CompressionHooks hooks;
+  LoadHooks hooks;
   bool first = true;
-  hooks.frame = [&](const World& w, const CurveRow&) {
+  hooks.frame = [&](World& w, const CurveRow&) {
     if (first && at_stage_2) at_stage_2(w);
     first = false;
   };
-  run_compression(r.world, specimen(), test, hooks, r.result);
+  run_load_test(r.world, specimen(), test, hooks, r.result);
   r.findings = read_curve(r.result.record.rows, r.result.record.mismatch);
   return r;
 }
@@ -109,7 +107,7 @@ TEST_CASE("triaxial/small: 500 spheres at 9 MPa: stage 1 settles, the pressure i
   const Run r = run(9e6, 0.012, [&](const World& w) {
     balance = virial(w, 9e6);
     kinetic = kinetic_energy(w) / stored_energy(w);
-    platens = w.platens.stress;
+    platens = scene::platen_stress(w.platens);
   });
   const CurveFindings& f = r.findings;
   INFO("peak ", f.peak_stress, ", strain ", f.strain_at_peak, ", E ", f.young_modulus.value_or(0), ", virial ", balance.bonds, " between ", balance.least, " and ", balance.most,

@@ -50,7 +50,7 @@ std::pair<Vec3, Vec3> momenta(const World& w) {
   const ParticleTable& p = w.particles;
   for (std::size_t k = 0; k < p.size; ++k) {
     P += p.mass[k] * p.velocity[k];
-    L += p.mass[k] * cross(p.position[k], p.velocity[k]) + sphere_inertia(p.mass[k], p.radius[k]) * p.spin[k];
+    L += p.mass[k] * cross(p.position[k], p.velocity[k]) + inertia(sphere_inertia_factor, p.mass[k], p.radius[k]) * p.spin[k];
   }
   return {P, L};
 }
@@ -130,14 +130,12 @@ TEST_CASE("conservation: a cluster turned rigidly by 1 rad feels no force, to fi
         w.particles.spin[row] = axis;
       }
       BondTable& b = w.bonds;
-      w.bond_pass({w.dt, w.law, w.particles.position, w.particles.velocity, w.particles.spin, w.particles.radius, b.row_lo,
-                   b.row_hi, b.rest_length, b.area, b.stiffness, b.damping},
-                  {b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear}, 0, b.padded, to);
+      w.bond_pass(scene::bond_pass_in(w), scene::bond_history(b), 0, b.padded, to, nullptr);
     }
     double worst = 0, bound = 1e-12;
     for (std::size_t k = 0; k < w.bonds.size; ++k) {
       worst = std::max(worst, norm(force[k]));
-      bound = std::max(bound, w.law.shear_ratio * w.bonds.stiffness[k] * w.bonds.rest_length[k] * 0.25 / steps);
+      bound = std::max(bound, w.shear_ratio * w.bonds.stiffness[k] * w.bonds.rest_length[k] * 0.25 / steps);
     }
     CHECK(count_broken(w).tension + count_broken(w).shear == 0);
     CHECK(worst < 1.1 * bound);
@@ -216,13 +214,13 @@ TEST_CASE("conservation: a bar of 11 bonded spheres has the stiffness E A/L [ver
   a.particles.free = 9, a.first_top = 10;
   REQUIRE(a.particles.position[9].z == doctest::Approx(-0.1));
   World w = make_world(a, scene::material_of(p), scene::factor(p), scene::options(p));
-  w.platens.velocity = {0.05, -0.05};
+  scene::drive(w, 0.05, -0.05);
   for (int k = 0; k < 400; ++k) advance(w);
   w.platens.velocity = {};
   for (int k = 0; k < 40000; ++k) advance(w);
-  const double strain = (w.platens.travel[0] + w.platens.travel[1]) / 0.2, A = pi * 1e-4;
+  const double strain = approach(w.platens) / 0.2, A = pi * 1e-4;
   CHECK(strain == doctest::Approx(2 * 400 * w.dt * 0.05 / 0.2).epsilon(1e-12));
-  for (const double stress : w.platens.stress)
+  for (const double stress : scene::platen_stress(w.platens))
     CHECK(stress * w.platens.section / (A * strain) == doctest::Approx(1e9).epsilon(1e-9));
   for (std::size_t k = 0; k < 9; ++k)  // uniform
     CHECK(std::abs(w.particles.position[k].z - (1 - strain) * a.particles.position[k].z) < 1e-8 * strain * 0.1);

@@ -35,7 +35,7 @@ Torn make_torn(ref::Criterion criterion, ScatterKind scatter, int threads, std::
   Specimen specimen = scene::small_packing(spheres);
   for (auto& s : specimen.spheres) s.group = group_of(s.id);
   p.beta = 0.03;
-  const Assembly a = assemble(specimen, scene::small_cylinder(), {p.beta, {}}, o.features, threads);
+  const Assembly a = assemble(specimen, scene::small_cylinder(), {p.beta, {}, AreaRule::minimum, {}}, o.features, threads);
   t.world = make_world(a, scene::material_of(p), scene::factor(p), o);
   World& w = t.world;
   std::mt19937_64 random(42);
@@ -48,7 +48,7 @@ Torn make_torn(ref::Criterion criterion, ScatterKind scatter, int threads, std::
     const Vec3& x = w.particles.position[k];
     w.particles.velocity[k] = 10.0 * noise + Vec3{0, 0, -600 * x.z};
   }
-  w.platens.velocity = {30, -30};
+  scene::drive(w, 30, -30);
   for (std::size_t k = w.particles.free; k < w.particles.size; ++k)
     w.particles.velocity[k] = {0, 0, k < w.first_top ? 30.0 : -30.0};
   return t;
@@ -111,7 +111,7 @@ TEST_CASE("reference: a breaking specimen of 100 spheres after 200 steps: x, v, 
       for (int set = 0; set <= static_cast<int>(best_instruction_set()); ++set) {
         if (threads == 2 && set != static_cast<int>(best_instruction_set())) continue;
         World w = make_torn(criterion, scatter, threads).world;
-        w.bond_pass = bond_pass_for(w.options.features, static_cast<InstructionSet>(set));
+        w.bond_pass = bond_pass_for(w.law, w.features, static_cast<InstructionSet>(set));
         for (int k = 0; k < steps; ++k) advance(w);
         const ParticleTable& p = w.particles;
         INFO("criterion ", int(criterion), ", scatter ", int(scatter), ", threads ", threads, ", set ", set);

@@ -496,39 +496,58 @@ TEST_CASE("case: what a later version brings is refused by name") {
            {"time", "accuracy = \"reference\"",
             "time.accuracy \"reference\" is not in this version; valid: \"normal\""},
            {"time", "mass_scaling = true", "time.mass_scaling true is not in this version; valid: false"},
-           {"bonds", "area = \"harmonic\"",
-            "bonds.area \"harmonic\" is not in this version; valid: \"minimum\""},
-           {"bonds", "area = \"polyhedron\"", "bonds.area \"polyhedron\" is not in this version"},
-           {"bonds", "area = \"voronoi\"", "bonds.area \"voronoi\" is not in this version"},
            {"damping", "scheme = \"capped\"",
             "damping.scheme \"capped\" is not in this version; valid: \"explicit\""},
            {"damping", "scheme = \"summed\"", "damping.scheme \"summed\" is not in this version"},
-           {"material", "law = \"kdem\"", "material.law \"kdem\" is not in this version; valid: \"dempack\""},
+           {"material", "law = \"parallel-bond\"",
+            "material.law \"parallel-bond\" is not in this version; valid: \"dempack\", \"exponential\", \"kdem\""},
            {"run", "checkpoint_every = \"5 min\"",
             "run.checkpoint_every \"5 min\" is not in this version; leave it out"},
        })
     says(complaint(std::string("[") + l.table + "]\n" + l.line + "\n"), std::string("c.toml:2: ") + l.text);
 }
 
+TEST_CASE("case: areas of the bonds, those of the strengths beside them") {
+  for (const auto& [word, rule] : {std::pair{"minimum", AreaRule::minimum}, {"harmonic", AreaRule::harmonic},
+                                   {"polyhedron", AreaRule::polyhedron}, {"voronoi", AreaRule::voronoi}}) {
+    const std::string area = std::string("area = \"") + word + "\"\n";
+    CHECK(load(good + "[bonds]\n" + area).bonds.area == rule);
+    CHECK(!load(good + "[bonds]\n" + area).bonds.strength_area);
+    const Case c = load(good + "[bonds]\nstrength_" + area);
+    CHECK(c.bonds.strength_area == rule);
+    CHECK(c.bonds.area == AreaRule::minimum);
+  }
+  CHECK(!load(good + "[bonds]\nstrength_area = \"same\"\n").bonds.strength_area);
+  says(complaint(good + "[bonds]\narea = \"voronoy\"\n"),
+       "c.toml:8: bonds.area: unknown \"voronoy\"; did you mean \"voronoi\"?");
+}
+
 TEST_CASE("case: keys that a test does not know, and bodies that it does not test") {
   const std::string confined = good + "[test]\nconfinement = [0, \"4 MPa\"]\n";
   says(complaint(confined, "bts"),
-       "c.toml:8: test.confinement: a Brazilian test has no confinement; leave it out");
+       "c.toml:8: test.confinement: this test sets no pressure; leave it out");
   says(complaint(confined, "ucs"),
        "c.toml:8: test.confinement: 4 MPa: an unconfined test has none; leave it out, or use "
        "breccia-triaxial");
   CHECK(complaint(good + "[test]\nconfinement = [\"0 MPa\"]\n", "ucs") == "accepted");
   CHECK(complaint(confined, "ucs", {"test.confinement=0"}) == "accepted");
-  says(complaint(good + "[test]\nplatens = \"rough\"\n", "bts"),
-       "c.toml:8: test.platens: the strips of a Brazilian test");
+  CHECK(load(good, "bts").test.rough_platens == false);
+  CHECK(load(good + "[test]\nplatens = \"rough\"\n", "bts").test.rough_platens);
+  says(complaint(good + "[test]\nconfinement = 1\nplatens = \"rough\"\n", "shear"),
+       "c.toml:9: test.platens: the halves of a shear box hold every direction; leave it out");
+  for (const char* test : {"hydrostatic", "shear"}) {
+    says(complaint(good, test), "c.toml: test.confinement: missing; give the ");
+    says(complaint(good + "[test]\nconfinement = [\"1 MPa\", 0]\n", test),
+         "c.toml:8: test.confinement: must be more than 0 Pa");
+  }
   const auto shaped = [](const char* shape) {
     return body + "shape = \"" + shape + "\"\npack.spheres = 9\n[material]\npreset = \"shale\"\n";
   };
   says(complaint(shaped("disc"), "ucs"),
-       "c.toml:4: specimen.shape \"disc\" is not in this version for breccia-ucs; valid: \"cylinder\", "
+       "c.toml:4: specimen.shape \"disc\" does not go with breccia-ucs; valid: \"cylinder\", "
        "\"box\"");
   says(complaint(shaped("disc")),
-       "c.toml:4: specimen.shape \"disc\" is not in this version for breccia-triaxial; valid: \"cylinder\"");
+       "c.toml:4: specimen.shape \"disc\" does not go with breccia-triaxial; valid: \"cylinder\"");
   says(complaint(shaped("cylinder"), "bts"),
        "c.toml:4: specimen.shape: a Brazilian test presses a disc; valid: \"disc\"");
   says(complaint(shaped("box"), "ucs"), "c.toml: specimen.depth: missing; a box has");
@@ -612,7 +631,7 @@ TEST_CASE("case: [[material.at]] names a confinement that is run, once") {
   says(complaint(at + "confinement = \"6 mm\"\n"),
        "c.toml:8: material.at.confinement: \"6 mm\" is a length; a stress is wanted");
   says(complaint(at + "confinement = 0\n", "bts"),
-       "c.toml:8: material.at: a Brazilian test has no confinement");
+       "c.toml:8: material.at: this test sets no pressure");
   CHECK(complaint(at + "confinement = \"6 MPa\"\n", "triaxial", {"test.confinement=\"7 MPa\""}) ==
         "accepted");
 }
@@ -622,9 +641,9 @@ TEST_CASE("case: every declaration is whole, and the printed reference lists it"
     INFO(key.name);
     CHECK(find_key(key.name) == &key);
     CHECK(!key.meaning.empty());
-    CHECK((key.store != nullptr) != (key.store_material != nullptr));
-    CHECK((key.store_material != nullptr) ==
-          (key.name.starts_with("material.") && key.name != "material.preset"));
+    // parameters that one law alone has go to Material::own by their names
+    CHECK((key.store != nullptr) + (key.store_material != nullptr) + !key.law.empty() == 1);
+    CHECK((key.store == nullptr) == (key.name.starts_with("material.") && key.name != "material.preset"));
     const std::string word(key.name.substr(key.name.rfind('.') + 1));
     CHECK((describe_keys("triaxial").find("  " + word + " ") != std::string::npos) ==
           accepts(key, "triaxial"));

@@ -118,7 +118,7 @@ TEST_CASE("contacts: a specimen crushed between platens: nothing is missed, bond
   p.alpha = 0.8;
   const Assembly a = assemble(scene::small_packing(120), scene::small_cylinder(), {}, Features{}, 1);
   World w = make_world(a, scene::material_of(p), scene::factor(p), scene::options(p));
-  w.platens.velocity = {12, -12};
+  scene::drive(w, 12, -12);
   const Watch seen = watch(w, 800);
   CHECK(count_broken(w).tension + count_broken(w).shear > 20);
   CHECK(seen.met > 100);

@@ -2,84 +2,31 @@
 // different bonds: against closed forms of MODEL sections 3 and 4, and against the reference on random paths.
 #include <doctest/doctest.h>
 
-#include <experimental/simd>
 #include <random>
 
 #include "kernels/bond_energy.hpp"
+#include "tests/follow.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
 namespace ref = breccia::reference;
 namespace stdx = std::experimental;
 using ref::Bond, ref::Broken, ref::Parameters, ref::PathPoint;
-using Path = std::vector<PathPoint>;
+using scene::Outcome, scene::Path;
 
 namespace {
 
 constexpr double exact = 1e-12;
 
-template <class R>
-constexpr std::size_t lanes() {
-  if constexpr (std::is_same_v<R, double>) return 1;
-  else return R::size();
-}
-template <class R, class Of>
-R spread(const Of& of) {
-  if constexpr (std::is_same_v<R, double>) return of(std::size_t{0});
-  else return R([&](auto k) { return of(std::size_t{k}); });
-}
-template <class R>
-double lane(const R& r, std::size_t k) {
-  if constexpr (std::is_same_v<R, double>) return r;
-  else return r[k];
-}
-template <class R>
-Vec3 lane(const Vec<R>& r, std::size_t k) {
-  return {lane(r.x, k), lane(r.y, k), lane(r.z, k)};
-}
+/// The constants of a bond as the production loop has them.
+BondConstants<double> constants_of_bond(const Bond& b) { return {b.d0, b.area, b.area, b.k_n, b.c_n}; }
 
-/// Force on lo and history after a point of a path along x.
-struct Outcome {
-  Vec3 force;  ///< x: tension positive
-  BondHistory<double> history;
-};
-
-/// Bonds along their paths, as many at once as R has lanes; a path that is shorter than others stands still at its end.
 template <Features features, class R>
 std::vector<std::vector<Outcome>> follow(const DempackLaw& law, const std::vector<Bond>& bonds,
                                          const std::vector<Path>& paths) {
-  std::vector<std::vector<Outcome>> out(bonds.size());
-  for (std::size_t first = 0; first < bonds.size(); first += lanes<R>()) {
-    const auto item = [&](std::size_t k) { return (first + k) % bonds.size(); };
-    BondConstants<R> c{spread<R>([&](std::size_t k) { return bonds[item(k)].d0; }),
-                       spread<R>([&](std::size_t k) { return bonds[item(k)].area; }),
-                       spread<R>([&](std::size_t k) { return bonds[item(k)].k_n; }),
-                       spread<R>([&](std::size_t k) { return bonds[item(k)].c_n; })};
-    BondHistory<R> h{};
-    std::size_t longest = 0;
-    for (std::size_t k = 0; k < lanes<R>(); ++k) longest = std::max(longest, paths[item(k)].size());
-    for (std::size_t step = 0; step < longest; ++step) {
-      const auto now = [&](std::size_t k) { return paths[item(k)][std::min(step, paths[item(k)].size() - 1)]; };
-      const auto before = [&](std::size_t k) {
-        return step == 0 ? PathPoint{} : paths[item(k)][std::min(step - 1, paths[item(k)].size() - 1)];
-      };
-      Pair<R> pair{};
-      pair.distance = spread<R>([&](std::size_t k) { return bonds[item(k)].d0 + now(k).u; });
-      pair.normal = pair.normal_before = {R(1.0), R(0.0), R(0.0)};
-      pair.rate = R(0.0);
-      pair.twist = R(0.0);
-      pair.arm_ratio = R(1.0);
-      pair.slip = {R(0.0), spread<R>([&](std::size_t k) { return now(k).y - before(k).y; }),
-                   spread<R>([&](std::size_t k) { return now(k).z - before(k).z; })};
-      const Vec<R> force = dempack_force<features>(law, c, pair, h);
-      for (std::size_t k = 0; k < lanes<R>() && first + k < bonds.size(); ++k)
-        if (step < paths[first + k].size())
-          out[first + k].push_back({lane(force, k),
-                                    {lane(h.shear, k), lane(h.plastic_stretch, k), lane(h.damage_normal, k),
-                                     lane(h.damage_shear, k)}});
-    }
-  }
-  return out;
+  std::vector<BondConstants<double>> constants;
+  for (const Bond& b : bonds) constants.push_back(constants_of_bond(b));
+  return scene::follow<features, R>(law, constants, paths);
 }
 
 /// A path with the forces that the closed form gives along it.
@@ -607,7 +554,7 @@ TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2
   const double u_l = stretch_limit(p, b), s_l = shear_limit(p, b);
   const double G_n = 0.5 * p.sigma_t * b.area * u_l * (1 + 0.8), G_s = 0.5 * p.tau_f * b.area * s_l * (1 + 0.6);
   const auto run = [&](const Path& path) { return follow<uncoupled, double>(law, {b}, {path})[0]; };
-  const BondConstants<double> constants{b.d0, b.area, b.k_n, b.c_n};
+  const BondConstants<double> constants = constants_of_bond(b);
   /// Work by the trapezoid less what the bond says it has stored.
   const auto dissipated = [&](const Path& path) {
     const auto out = run(path);
@@ -616,7 +563,7 @@ TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2
     Vec3 F;
     for (std::size_t k = 0; k < path.size(); a = path[k], F = out[k].force, ++k)
       work += 0.5 * dot(F + out[k].force, {path[k].u - a.u, path[k].y - a.y, path[k].z - a.z});
-    return work - stored_energy(law, constants, out.back().history, b.d0 + path.back().u, Criterion::uncoupled);
+    return work - stored_energy(law, constants, out.back().history, b.d0 + path.back().u, false);
   };
   // a kink between two slopes inside a step is worth at most |change of slope| du^2/8
   const auto off_n = [&](int steps, double far) { return b.k_n * (1 + 2 / 0.8) * std::pow(far / steps, 2) / 8; };
@@ -641,7 +588,7 @@ TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2
   // no shear stiffness (a matched material of nu = 0.25): finite
   DempackLaw slippery = law;
   slippery.shear_ratio = 0;
-  CHECK(stored_energy(slippery, constants, {}, b.d0 + 0.5 * u_l, Criterion::uncoupled) ==
+  CHECK(stored_energy(slippery, constants, {}, b.d0 + 0.5 * u_l, false) ==
         doctest::Approx(0.125 * b.k_n * u_l * u_l).epsilon(1e-9));
   // elastic in all directions: nothing is lost
   CHECK(std::abs(dissipated(along({{0.9 * u_l, 0.5 * s_l, 0.5 * s_l}, {-u_l, -0.3 * s_l}}, 40))) < 1e-12 * G_s);

@@ -9,7 +9,7 @@ using namespace breccia;
 TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shifted by [MODEL 10, 1e-14]") {
   const Assembly a = assemble(scene::small_packing(400), scene::small_cylinder(), {}, Features{}, 1);
   const auto& x = a.particles.reference_position;
-  const Gauge axial = axial_gauge(a), radial = radial_gauge(a);
+  const Gauge axial = axial_gauge(a), radial = lateral_gauge(a);
   REQUIRE(axial.rows.size() > 100);
   REQUIRE(radial.rows.size() > 30);
   const auto strains = [&](auto displacement) {

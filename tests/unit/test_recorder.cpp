@@ -8,7 +8,7 @@ using namespace breccia;
 namespace {
 
 Reading reading(int step) {
-  return {1e-3 * step, 1e-5 * step, 2e-5 * step, 1e6 * step, -1e-6 * step, 7.0 * step};
+  return {1e-3 * step, 1e-5 * step, 2e-5 * step, 1e6 * step, 3e4 * step, -1e-6 * step, 4e-6 * step, 7.0 * step};
 }
 
 /// Steps 1 ... n, what is known at a row's end counting the steps.
@@ -21,7 +21,7 @@ Recorder record(std::size_t capacity, std::size_t steps_per_row, int steps) {
       CurveRow end;
       end.broken_tension = k;
       end.kinetic_J = 0.5 * k;
-      end.confining_stress_Pa = 3e6;
+      end.confining_stress_Pa = 9e9;  // a mean takes its place
       close_row(r, end);
     }
   return r;
@@ -41,7 +41,8 @@ TEST_CASE("recorder: a row is the mean of its steps, counts and energies are tho
     CHECK(c.platen_strain == doctest::Approx(2e-5 * mean).epsilon(1e-14));
     CHECK(c.axial_stress_Pa == doctest::Approx(1e6 * mean).epsilon(1e-14));
     CHECK(c.radial_strain == doctest::Approx(-1e-6 * mean).epsilon(1e-14));
-    CHECK(c.volumetric_strain == doctest::Approx(0.8e-5 * mean).epsilon(1e-14));
+    CHECK(c.volumetric_strain == doctest::Approx(4e-6 * mean).epsilon(1e-14));
+    CHECK(c.confining_stress_Pa == doctest::Approx(3e4 * mean).epsilon(1e-14));
     CHECK(c.broken_tension == 16 * (row + 1));
     CHECK(c.kinetic_J == 8 * (row + 1));
     CHECK(r.mismatch[std::size_t(row)] == doctest::Approx(7 * mean).epsilon(1e-14));
@@ -56,9 +57,9 @@ TEST_CASE("recorder: merged rows are the means of twice the steps, there are hal
   for (std::size_t row = 0; row < r.rows.size(); ++row) {
     const double mean = 16.0 * double(row) + 8.5;
     CHECK(r.rows[row].axial_stress_Pa == doctest::Approx(1e6 * mean).epsilon(1e-13));
-    CHECK(r.rows[row].volumetric_strain == doctest::Approx(0.8e-5 * mean).epsilon(1e-13));
+    CHECK(r.rows[row].volumetric_strain == doctest::Approx(4e-6 * mean).epsilon(1e-13));
     CHECK(r.rows[row].broken_tension == 16 * double(row + 1));
-    CHECK(r.rows[row].confining_stress_Pa == 3e6);
+    CHECK(r.rows[row].confining_stress_Pa == doctest::Approx(3e4 * mean).epsilon(1e-13));
     CHECK(r.mismatch[row] == doctest::Approx(7 * mean).epsilon(1e-13));
   }
   for (const int steps : {100, 1000, 10000, 54321}) {

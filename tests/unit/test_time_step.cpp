@@ -25,10 +25,10 @@ World chain(std::size_t n, ref::Parameters p, double global = 0) {
 }
 
 double estimate(const World& w, double damping = 0) {
-  return critical_time_step(w.particles, w.bonds, w.law.shear_ratio, damping, 1);
+  return critical_time_step(w.particles, w.bonds, w.shear_ratio, {}, damping, 1);
 }
 double proven(const World& w, double damping = 0) {
-  return proven_time_step(w.particles, w.bonds, w.law.shear_ratio, damping, 1);
+  return proven_time_step(w.particles, w.bonds, w.shear_ratio, {}, damping, 1);
 }
 
 ref::Parameters elastic(double kappa, double xi) {
