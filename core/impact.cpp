@@ -58,7 +58,7 @@ Vec3 law_force(const ImpactWorld& w, const ImpactContactTable& t, std::size_t k,
 
 Vec3 rolling_torque(const ImpactWorld& w, ImpactContactTable& t, std::size_t k, const Ends& ends,
                     const Vec3& rolling, double stiffness, double pressed) {
-  if (!(t.lever[k] > 0.0)) return {};
+  if (!(t.lever[k] > 0.0) || !(pressed > 0.0)) return {};
   if (w.scene.rolling == RollingModel::constant)
     return constant_rolling_torque(rolling, t.lever[k] * pressed, ends.inertia, w.dt);
   return elastic_plastic_rolling_torque(t.rolling[k], rolling, stiffness, t.lever[k], pressed, w.dt);
