@@ -348,10 +348,11 @@ double critical_impact_step(const ImpactScene& scene) {
                                  ? hertz_impact(c.normal, reduced_mass, approach).overlap
                                  : 0.0;
       const ContactSlopes s = slopes_at(scene.law, c, overlap);
-      // dt^2 K/4 + dt C/2 = m for the normal and the tangential spring
-      const double root = std::sqrt(s.damping * s.damping + 4.0 * reduced_mass * s.normal);
-      least = std::min(least, 4.0 * reduced_mass / (s.damping + root));
-      least = std::min(least, 2.0 * std::sqrt(reduced_mass / (3.5 * s.tangential)));
+      const auto stable = [](double m, double k, double d) {  // dt^2 k/4 + dt d/2 = m
+        return 4.0 * m / (d + std::sqrt(d * d + 4.0 * m * k));
+      };
+      least = std::min({least, stable(reduced_mass, s.normal, s.damping),
+                        stable(reduced_mass / rolling_factor, s.tangential, s.tangential_damping)});
     };
     for (const ImpactWall& wall : scene.walls) ask(wall_constants(scene, i, wall.material), mass, speed);
     if (scene.particles.size() < 2) continue;

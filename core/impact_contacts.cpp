@@ -99,13 +99,14 @@ ImpactConstants wall_constants(const ImpactScene& scene, std::size_t i, std::siz
 }
 
 ContactSlopes slopes_at(ContactLaw law, const ImpactConstants& c, double overlap) {
-  if (law == ContactLaw::linear) return {c.normal, c.tangential, c.damping};
-  const double root = std::sqrt(overlap), slope = 1.5 * c.normal * root;
-  return {slope, c.tangential * root, c.damping * std::sqrt(slope)};
+  if (law == ContactLaw::linear) return {c.normal, c.tangential, c.damping, 0.0};
+  const double root = std::sqrt(overlap), slope = 1.5 * c.normal * root, across = c.tangential * root;
+  return {slope, across, c.damping * std::sqrt(slope), c.damping * std::sqrt(across)};
 }
 
 double step_demand(const ContactSlopes& s, double dt) {
-  return std::max(0.25 * dt * dt * s.normal + 0.5 * dt * s.damping, 3.5 * 0.25 * dt * dt * s.tangential);
+  const auto one = [&](double k, double c) { return 0.25 * dt * dt * k + 0.5 * dt * c; };
+  return std::max(one(s.normal, s.damping), rolling_factor * one(s.tangential, s.tangential_damping));
 }
 
 bool search_is_due(const ImpactSearch& search, const ParticleTable& p) {

@@ -36,14 +36,17 @@ ImpactConstants wall_constants(const ImpactScene& scene, std::size_t i, std::siz
 /// kg
 double mass_of(const ImpactScene& scene, const ImpactParticle& particle);
 
-/// Slope of the normal force, of the tangential one, and the dashpot at an overlap: N/m, N/m, N s/m.
+/// Slopes of the normal and tangential force at an overlap, N/m, and the dashpots beside them, N s/m.
 struct ContactSlopes {
-  double normal = 0, tangential = 0, damping = 0;
+  double normal = 0, tangential = 0, damping = 0, tangential_damping = 0;
 };
 ContactSlopes slopes_at(ContactLaw law, const ImpactConstants& c, double overlap);
 
+/// What turning adds to a tangential spring on a solid sphere: 1 + 5/2.
+inline constexpr double rolling_factor = 3.5;
+
 /// What one end of a contact asks of the step: dt is stable while this is below the end's mass (MODEL section
-/// 8; the factor 7/2 is what rolling adds to a tangential spring on a solid sphere).
+/// 8).
 double step_demand(const ContactSlopes& slopes, double dt);
 
 /// Both lists of candidates, renewed when particles have used up the skin.

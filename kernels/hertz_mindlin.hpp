@@ -40,16 +40,17 @@ struct ContactMemory {
   double overlap = 0;  ///< m, of the step before
 };
 
-/// How springs and dashpots of the contact go together.
-/// dissipative: never pulls; the tangential spring is incremental and gives back less while the overlap
-/// shrinks, so
+/// How springs and dashpots of the contact go together. While it sticks, a tangential dashpot with the same
+/// fraction of critical damping as the normal one acts beside the tangential spring (Tsuji, Tanaka and Ishida
+/// 1992). dissipative: never pulls; the tangential spring is incremental and gives back less while the
+/// overlap shrinks, so
 ///              that no path gains energy (Thornton, Cummins and Cleary, Powder Technol. 233, 2013); friction
-///              is measured by the total normal force; no tangential dashpot
+///              is measured by the total normal force and limits spring and dashpot together
 /// classic:     as widely used codes have it, for comparison with them: pulls at the end of a damped impact;
 /// the
-///              tangential force is the present stiffness times the stretch so far, plus a dashpot while it
-///              sticks; friction is measured by the normal spring alone. Some paths gain up to 4 % of
-///              tangential energy
+///              tangential spring force is the present stiffness times the stretch so far; friction is
+///              measured by the normal spring alone and limits the tangential spring alone. Some paths gain
+///              up to 4 % of tangential energy
 enum class HertzForm : unsigned char { dissipative, classic };
 
 inline Vec3 cut_to(const Vec3& shear, double limit) {
@@ -74,9 +75,9 @@ inline Vec3 hertz_mindlin_force(const HertzMindlin& contact, HertzForm form, dou
   const double limit = contact.friction * (classic ? spring : pressed);
   const bool slides = dot(memory.shear, memory.shear) > limit * limit;
   memory.shear = cut_to(memory.shear, limit);
-  const Vec3 force = memory.shear - pressed * pair.normal;
-  if (!classic || slides) return force;
-  return force + (contact.damping * std::sqrt(stiffness) / dt) * pair.slip;
+  Vec3 across = memory.shear;
+  if (!slides) across += (contact.damping * std::sqrt(stiffness) / dt) * pair.slip;
+  return (classic ? across : cut_to(across, limit)) - pressed * pair.normal;
 }
 
 /// The elastic impact in closed form: largest overlap, force, and how long the contact lasts
