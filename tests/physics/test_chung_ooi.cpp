@@ -63,7 +63,7 @@ ImpactRecord angled(double angle, HertzForm form = HertzForm::dissipative) {
 
 }  // namespace
 
-TEST_CASE("chung-ooi 1: two glass spheres head on [Hertz, 1e-3; digitised curve within 1 % of the peak]") {
+TEST_CASE("chung-ooi 1: two glass spheres head on [Hertz 1e-3 - digitised curve within 1 % of the peak]") {
   const ImpactResult r = run(head_on(glass, 0.01, 10));
   const ImpactRecord& p = r.particles[0];
   CHECK(p.largest_overlap == doctest::Approx(2.74112702e-4).epsilon(1e-3));
@@ -78,7 +78,7 @@ TEST_CASE("chung-ooi 1: two glass spheres head on [Hertz, 1e-3; digitised curve 
   CHECK(worst_force("chung_ooi_test1_force_time.csv", r.rows) < 0.01 * p.largest_force);
 }
 
-TEST_CASE("chung-ooi 2: a sphere on a rigid plane [Hertz, 1e-3; digitised curve within 1 % of the peak]") {
+TEST_CASE("chung-ooi 2: a sphere on a rigid plane [Hertz 1e-3 - digitised curve within 1 % of the peak]") {
   const ImpactResult r = run(sphere_on_plane(alloy, 0.1, {0, 0, -0.2}));
   const ImpactRecord& p = r.particles[0];
   CHECK(p.largest_overlap == doctest::Approx(4.97171752e-5).epsilon(1e-3));
@@ -101,9 +101,7 @@ TEST_CASE("chung-ooi 3: the rebound speed is e times the approach speed [1e-3 of
     }
 }
 
-TEST_CASE(
-    "chung-ooi 4: oblique at constant speed [gross sliding, 5e-3; digitised curve by the classic form within "
-    "2 % of its largest spin]") {
+TEST_CASE("chung-ooi 4: oblique at constant speed [gross sliding 5e-3 - digitised curve 2 %]") {
   const double spin_scale = 2.5 * 0.092 * 1.98 * 3.9 / 0.0025;  // 1/s: R w' = 5/2 mu (1 + e) v_n
   for (const double angle : {40., 50., 60., 70., 80., 85.}) {
     const double vn = 3.9 * std::cos(degrees(angle)), vt = 3.9 * std::sin(degrees(angle));
@@ -133,7 +131,7 @@ TEST_CASE(
   CHECK(ours < 0.05 * 617);
 }
 
-TEST_CASE("chung-ooi 5: normal speed constant, tangential speed varied [gross sliding, 1e-2]") {
+TEST_CASE("chung-ooi 5: normal speed constant tangential speed varied [gross sliding 1e-2]") {
   const double radius = 1e-5, unit = 0.3 * 5.0;  // m/s: mu V_n
   for (const double x : {8.0, 10.0, 13.0, 20.0}) {
     const ImpactRecord p = hit(steel, radius, {x * unit, 0, -5});
@@ -143,9 +141,7 @@ TEST_CASE("chung-ooi 5: normal speed constant, tangential speed varied [gross sl
   }
 }
 
-TEST_CASE(
-    "chung-ooi 6: spinning on a rigid plane [gross sliding, 1e-2; nylon's digitised curve by the classic "
-    "form]") {
+TEST_CASE("chung-ooi 6: spinning on a rigid plane [gross sliding 1e-2 - nylon's digitised curve]") {
   for (const double x : {0.15, 0.3, 0.5}) CHECK(beta(rough_alloy, x) == doctest::Approx(x - 1).epsilon(1e-2));
   const auto curve = digitised("chung_ooi_test6_beta.csv", "Nylon");
   if (curve.empty()) {
@@ -162,7 +158,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "chung-ooi 7: equal spheres with equal spins part without tangential velocity, spins as before [1e-9]") {
+    "chung-ooi 7: equal spheres with equal spins part without tangential velocity spins as before [1e-9]") {
   for (const double spin : {0.175, 1.155, 5.495, 22.86}) {
     ImpactScene s = head_on(rough_alloy, 0.1, 0.2);
     s.particles[0].spin = s.particles[1].spin = {0, 0, spin};

@@ -10,7 +10,7 @@
 using namespace breccia;
 
 TEST_CASE(
-    "restitution: damping and coefficient are inverse to each other [1e-12], exp(-2) at critical damping") {
+    "restitution: damping and coefficient are inverse to each other [1e-12] exp(-2) at critical damping") {
   for (const double e : {0.01, 0.1, 0.13, 0.1353, 0.14, 0.2, 0.5, 0.9, 0.999, 1.0})
     CHECK(restitution_of_damping(damping_of_restitution(e)) == doctest::Approx(e).epsilon(1e-12));
   CHECK(restitution_of_damping(1.0) == doctest::Approx(std::exp(-2.0)).epsilon(1e-15));
@@ -38,7 +38,7 @@ TEST_CASE("hertz: moduli of equal spheres and of a sphere on a rigid plane") {
 }
 
 TEST_CASE(
-    "hertz: the force never pulls, slides at mu times itself, and gives back less as the overlap shrinks") {
+    "hertz: the force never pulls slides at mu times itself and gives back less as the overlap shrinks") {
   const HertzMindlin contact{1e9, 8e8, 0.3, 0.25};
   Pair<double> pair{};
   pair.normal = {1, 0, 0};
@@ -91,7 +91,7 @@ TEST_CASE("wall: nearest points and clearance of a plane and a cylinder") {
   CHECK(norm(nearest_on_wall(tube, {0, 3, 0}).point - Vec3{0, 3, 0}) == doctest::Approx(2));
 }
 
-TEST_CASE("rolling friction: limited, against the rolling, and it stops without turning back") {
+TEST_CASE("rolling friction: limited against the rolling and it stops without turning back") {
   const Vec3 rolling = rolling_spin({1, 2, 3}, {0, 0, 1}, {0, 0, 1});
   CHECK(rolling == Vec3{1, 2, 0});
   const Vec3 torque = constant_rolling_torque({3, 4, 0}, 10, 1, 1e-3);

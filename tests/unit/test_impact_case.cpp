@@ -62,7 +62,7 @@ void says(const std::string& text, const std::string& wanted) {
 
 }  // namespace
 
-TEST_CASE("impact case: every key is read, units are taken off, the resolved case reads back the same") {
+TEST_CASE("impact case: every key is read units are taken off the resolved case reads back the same") {
   const ImpactCase c = load(good, {"particle.1.spin=[0, \"3 rad/s\", -1]", "contact.law=linear",
                                    "contact.stiffness=\"5 kN/mm\"", "scene.gravity=[0, 0, \"-9.81 m/s^2\"]",
                                    "materials.glass.restitution=0.5", "output.rows=7", "time.safety=0.01"});
@@ -132,7 +132,7 @@ TEST_CASE("impact case: --set names what it cannot find") {
        "--set: time.duration.x: is not a key of a table");
 }
 
-TEST_CASE("impact case: every declaration is whole, and the printed reference lists it") {
+TEST_CASE("impact case: every declaration is whole and the printed reference lists it") {
   const std::string help = describe_impact_keys();
   const auto check = [&](const auto& fields) {
     for (const auto& field : fields) {
