@@ -29,7 +29,9 @@ void write_at(std::string& text, const ConfinementLayer& at, const Layer& base) 
   text += fmt::format("\n[[material.at]]\nconfinement = {}\n{}", toml_string(confinement), lines);
 }
 
-std::string valid_values(const Key& key) {
+}  // namespace
+
+std::string describe_values(const Key& key) {
   if (key.later == "*") return "not in this version";
   switch (key.kind) {
     case Kind::boolean:
@@ -50,8 +52,6 @@ std::string valid_values(const Key& key) {
                                                         : "list of ";
   return list + what + (range.empty() ? "" : ", ") + range + (key.rising ? ", rising" : "");
 }
-
-}  // namespace
 
 std::string write_case(const Layer& keys, const Layer& base, const std::vector<ConfinementLayer>& at,
                        const std::string& test) {
@@ -84,7 +84,7 @@ std::string describe_keys(const std::string& test) {
     if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) continue;
     if (table_of(key) != table) table = table_of(key), text += fmt::format("\n[{}]\n", table);
     const std::string_view standard = standard_of(key, test);
-    text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), valid_values(key),
+    text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), describe_values(key),
                         standard.empty() ? "-" : standard, key.meaning);
     if (key.name == "material.preset" && accepts(*find_key("test.confinement"), test))
       text += fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",

@@ -14,4 +14,7 @@ namespace breccia {
 std::string write_case(const Layer& keys, const Layer& base, const std::vector<ConfinementLayer>& at,
                        const std::string& test);
 
+/// What is valid behind a key, for the printed reference: "a length, more than 0 m".
+std::string describe_values(const Key& key);
+
 }  // namespace breccia

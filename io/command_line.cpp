@@ -52,7 +52,7 @@ bool interrupted() { return stop_asked; }
 void begin_results() { results_begun = true; }
 
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,
-                const std::function<void(const CommandLine&)>& body) {
+                const std::function<void(const CommandLine&)>& body, const std::string& keys) {
   const std::string program = "breccia-" + name;
   CommandLine line;
   line.program = name;
@@ -70,7 +70,7 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   app.add_flag("--force", line.force, "replace results that are there");
   app.add_flag("--quiet", line.quiet, "errors only");
   app.add_flag("--resume", resume, "not in this version");
-  app.footer(describe_keys(name));
+  app.footer(keys.empty() ? describe_keys(name) : keys);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -25,7 +25,8 @@ void begin_results();
 /// Reads the command line, runs `body` and turns what it throws into one line on stderr and the exit code:
 /// 0 done, 2 bad input, 3 the simulation broke, 4 files, 130 interrupted.
 /// @param about  one line for --help
+/// @param keys   the reference of keys for --help; empty: describe_keys(name)
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,
-                const std::function<void(const CommandLine&)>& body);
+                const std::function<void(const CommandLine&)>& body, const std::string& keys = {});
 
 }  // namespace breccia

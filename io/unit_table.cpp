@@ -38,6 +38,7 @@ constexpr std::array units{
     Unit{"l", volume, 1, -3, true},
     Unit{"L", volume, 1, -3, true},
     Unit{"%", dimension::number, 1, -2},
+    Unit{"rad", dimension::number, 1, 0, true},
 };
 
 struct Prefix {
