@@ -60,8 +60,9 @@ AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, 
                        Progress& progress) {
   const AreaFactor f = find_area_factor(
       assembly, {rule, c.bonds.alpha, c.bonds.elasticity, c.materials.front(), rough}, threads);
-  say(progress, fmt::format("alpha {:.4f} (areas tile space {:.3f} times), k_s/k_n {:.4f}{}", f.alpha,
-                            f.fabric, f.shear_ratio,
+  const BondLaw law = law_of(c.materials.front(), f.shear_ratio);
+  say(progress, fmt::format("alpha {:.4f} (areas tile space {:.3f} times), k_s/k_n {:.4f}{}", f.alpha, f.fabric,
+                            std::visit([](const auto& l) { return l.shear_ratio; }, law),
                             f.probes ? fmt::format("; elastic probe: E {:.4g} GPa, nu {:.4f}",
                                                    f.young_modulus * 1e-9, f.poisson_ratio)
                                      : ""));

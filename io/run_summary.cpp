@@ -67,6 +67,8 @@ void forget_the_peak(const LoadResult& result, RunSummary& run) {
   run.peak_reached = false;
   run.peak_deviator_Pa = run.strain_at_peak = run.young_modulus_Pa = run.young_modulus_50_Pa = run.poisson_ratio =
       run.crack_damage_stress_Pa = run.kinetic_ratio = run.platen_mismatch = {};
+  run.peak_stress_Pa = 0;
+  for (const CurveRow& row : result.record.rows) run.peak_stress_Pa = std::max(*run.peak_stress_Pa, row.axial_stress_Pa);
   run.bulk_modulus_Pa = bulk_modulus(result.record.rows);
 }
 

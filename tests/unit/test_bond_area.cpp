@@ -54,7 +54,7 @@ Assembly bonded(const std::vector<scene::Ball>& balls, const Body& body, double 
   Assembly a = scene::free_body(balls, beta, Features{});
   a.body = body;
   for (std::size_t k = 0; k < balls.size(); ++k)
-    if (at_mantle(body, balls[k].x, balls[k].radius, a.mean_radius)) a.skin.push_back(Row(k));
+    if (at_mantle(body, Space::solid, balls[k].x, balls[k].radius, a.mean_radius)) a.skin.push_back(Row(k));
   return a;
 }
 
