@@ -73,9 +73,10 @@ class Runner:
                    "--threads", str(self.threads)]
         for setting in case.set:
             command += ["--set", setting]
+        environment = {**os.environ, "BRECCIA_DATA": str(SOURCE / "data")}  # presets of this source folder
         start = time.monotonic()
         with folder.with_suffix(".log").open("w") as log:
-            code = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode
+            code = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, env=environment).returncode
         if code or not finished(folder):
             lines = folder.with_suffix(".log").read_text().strip().splitlines()
             raise RunFailed(f"{case.name}: exit code {code}: {lines[-1] if lines else 'no message'}")
