@@ -168,6 +168,8 @@ Reading read_standard_text(const Key& key, std::string_view standard) {
   TomlNode node{text, "default", 0};
   if (key.kind == Kind::boolean) node.value = text == "true";
   if (key.kind == Kind::whole_number) node.value = std::int64_t{std::stoll(text)};
+  if (key.kind == Kind::word_or_number && !contains(split_words(key.words), text))
+    node.value = std::stod(text);
   return read_value(key, node);
 }
 
