@@ -477,7 +477,7 @@ std::vector<Key> keys_of_laws() {
                       : parameter.unit == "N" ? dimension::force
                       : parameter.unit == "Pa" ? dimension::stress
                                                : dimension::number;
-      key.range = at_least(parameter.low);
+      key.range = parameter.above ? more_than(parameter.low) : at_least(parameter.low);
       key.law = law.name;
       key.meaning = names.emplace_back(fmt::format("law {}: {}", law.name, parameter.meaning));
       own.push_back(key);
