@@ -349,6 +349,9 @@ TEST_CASE("case: unknown keys, tables and presets are refused with the nearest v
        "c.toml:9: material.delta: unknown key; ");
   says(complaint(good + "[[material.at]]\nconfinement = 0\npreset = \"x\"\n"),
        "c.toml:9: material.at.preset: not for one confinement");
+  for (const std::string line : {"law = \"kdem\"", "criterion = \"coupled\""})  // the tables and kernels are the series'
+    says(complaint(good + "[[material.at]]\nconfinement = 0\n" + line + "\n"),
+         "c.toml:9: material.at." + line.substr(0, line.find(' ')) + ": not for one confinement; it belongs to the whole material");
   says(complaint(good + "nu = 1\n"), "c.toml:7: material.nu: unknown key; valid: \"material.preset\", ");
   says(complaint(pack + "pack.size.kind = 1\n"),
        "c.toml:5: specimen.pack.size: unknown key; did you mean \"specimen.pack.sizes\"?");
