@@ -760,9 +760,14 @@ TEST_CASE("case: two dimensions: defaults and what does not go together") {
   for (const char* number : {"1", "4"})
     says(complaint(body + "dimensions = " + number + "\npack.spheres = 9\n", "pack"),
          "c.toml:4: specimen.dimensions: ");
-  for (const char* test : {"ucs", "triaxial"})
+  for (const char* test : {"triaxial", "usc"})
     says(complaint(flat + tall + "pack.spheres = 9\n[material]\npreset = \"concrete\"\n", test),
-         "c.toml:2: specimen.dimensions: 2 is not in this version for breccia-");
+         std::string("c.toml:2: specimen.dimensions: breccia-") + test + " has three; valid: 3");
+  const std::string discs = flat + tall + "pack.spheres = 9\n[material]\npreset = \"concrete\"\n";
+  CHECK(load(discs, "ucs").specimen.space == Space::plane);
+  CHECK(load(discs, "biaxial").test.rough_platens == false);
+  says(complaint(body + "dimensions = 3\npack.spheres = 9\n[material]\npreset = \"concrete\"\n", "biaxial"),
+       "c.toml:4: specimen.dimensions: a biaxial test has two; valid: 2");
   says(complaint(flat + tall + "shape = \"box\"\npack.spheres = 9\n[material]\npreset = \"concrete\"\n",
                  "bts"),
        "c.toml:5: specimen.shape: a Brazilian test presses a disc");
