@@ -5,13 +5,13 @@ import shutil
 import numpy as np
 from breccia_plot import draw_cracks, read_series
 
-from .series import MPA, dynamic
+from .series import MPA, at_alpha_one, dynamic
 from .study import Outcome, Row, within
 
 SLICES, BAND = 20, 0.1  # across the loaded diameter; half-width of the band about its plane, over D
 
 
-def brazilian(name, result, pictures, experiment, paper, fraction):
+def brazilian(name, result, pictures, experiment, paper, fraction, young):
     run = result.run()
     strength = run["tensile_strength_Pa"] / MPA
     share, span = splitting(result)
@@ -21,7 +21,7 @@ def brazilian(name, result, pictures, experiment, paper, fraction):
     text = f"""2 P/(pi L D) of the largest load; the load at its first drop of 5 % gives {run['first_drop_stress_Pa'] / MPA:.2f} MPa, and with the correction
 for the width of the strips, (1 - (b/R)^2)^1.5 with b = 0.15 R, it is {run['strip_corrected_strength_Pa'] / MPA:.2f} MPa. The first twenty cracks: {run['first_cracks']}.
 Of the broken bonds {100 * share:.0f} % lie within a tenth of the diameter from the plane of the loaded diameter; cut into {SLICES} slices across
-that diameter, {span} have broken bonds of the band in them ({run['broken_tension']:,} broke in tension, {run['broken_shear']:,} in shear).
+that diameter, {span} have broken bonds of the band in them ({run['broken_tension']:,} broke in tension, {run['broken_shear']:,} in shear). {at_alpha_one(result, strength, young)}
 {dynamic(result)}"""
     return Outcome([
         Row("tensile strength, MPa", strength, experiment, paper, f"{experiment:g} MPa within {100 * fraction:.0f} %",

@@ -27,12 +27,28 @@ def triaxial(results, pictures):
 
 
 def bts(results, pictures):
-    outcome = brazilian("concrete-bts", results["disc"], pictures, 3.0, None, 0.15)
+    outcome = brazilian("concrete-bts", results["disc"], pictures, 3.0, None, 0.15, E)
     outcome.text += BTS_REASON
     return outcome
 
 
-BTS_REASON = ""
+BTS_REASON = """
+
+The disc splits as it should, and at too high a stress. The parameters follow from the paper's two estimates that do not agree with each other: the
+strength of bonds is 5 MPa by its formula from the unconfined strength, 0.464 UCS^(2/3), and 1.6 times the Brazilian strength would be 4.8 MPa; a
+disc whose bonds only break in tension carries 0.8 times the strength of a bond (direct tension: 0.76), not 1/1.6. Only where
+the strips crush, as in the cement, is the quotient 1.6. For what changes it and what does not, see the next section."""
+
+
+def bts_causes(results, pictures):
+    """How much the strength of the disc owes to speed, criterion and tensile strength."""
+    rows = []
+    for name, words in (("fast", "0.1 m/s"), ("as-above", "0.03 m/s, as above"), ("slow", "0.01 m/s"),
+                        ("coupled", "0.03 m/s, tension and shear coupled"), ("thesis", "0.03 m/s, bonds of the thesis: 3.2 MPa")):
+        run = results[name].run()
+        rows.append(Row(f"{words}: tensile strength, MPa", run["tensile_strength_Pa"] / MPA, 3.0, run_time=results[name].run_time))
+    return Outcome(rows, """6,000 spheres. Speed is not the reason, and the choice of criterion only part of it. With the tensile strength that the thesis of Santasusana
+gives for this concrete (`data/materials/concrete-thesis.toml`) the disc is within 15 % of the experiment.""")
 
 
 def cyclic(results, pictures):
@@ -144,6 +160,10 @@ al. (2015). Where no mesh is named, specimens are packings of as many spheres as
         Study("concrete-triaxial", "Triaxial compression of concrete", (Case("cylinder", "triaxial", "concrete-triaxial.toml"),),
               triaxial, meshes=CYLINDER),
         Study("concrete-bts", "Brazilian test of concrete", (Case("disc", "bts", "concrete-bts.toml"),), bts),
+        Study("concrete-bts-causes", "Brazilian test of concrete: what its strength depends on", tuple(
+            Case(name, "bts", "concrete-bts.toml", ("specimen.pack.spheres=6000", setting, "output.frames=0")) for name, setting in (
+                ("fast", "test.platen_speed=0.1"), ("as-above", "test.platen_speed=0.03"), ("slow", "test.platen_speed=0.01"),
+                ("coupled", 'material.criterion="coupled"'), ("thesis", 'material.preset="concrete-thesis"'))), bts_causes),
         Study("concrete-cyclic", "Unloading and reloading of concrete",
               (Case("unconfined", "ucs", "concrete-cyclic.toml"), Case("confined", "triaxial", "concrete-cyclic-40.toml")), cyclic),
         Study("speed", "Speed of loading", tuple(Case(at(v), "ucs", "concrete-speed.toml", (f"test.platen_speed={v}",))

@@ -29,3 +29,10 @@ def triaxial_rows(result):
         rows.append(Row(f"{p:.3g} MPa: axial stress (deviator), MPa{'' if run['peak_reached'] else ', no peak'}", peak,
                         run_time=run["run_time_s"]))
     return rows
+
+
+def at_alpha_one(result, stress, young):
+    """What the paper's area factor would make of a stress (MPa): forces and stiffnesses of bonds go with their areas alike."""
+    alpha = result.run()["alpha"]
+    return (f"alpha is {alpha:.3f} here, so that E is as asked; the paper prints 1. Strengths and E of a slow test go with it: "
+            f"alpha = 1 means {stress / alpha:.3g} MPa, and E = {young / alpha:.3g} GPa in place of {young:.3g}.")
