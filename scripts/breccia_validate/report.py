@@ -2,6 +2,7 @@
 anew while only some of its studies were run."""
 import dataclasses
 import json
+import re
 import sys
 
 from .runner import SOURCE, SPECIMENS
@@ -21,7 +22,7 @@ def make(study, runner):
     outcome = study.evaluate(results, FOLDER)
     RESULTS.mkdir(parents=True, exist_ok=True)
     stored = {"study": study.name, "rows": [dataclasses.asdict(complete(row)) for row in outcome.rows],
-              "text": outcome.text.strip(), "pictures": outcome.pictures}
+              "text": re.sub(r"\n{3,}", "\n\n", outcome.text.strip()), "pictures": outcome.pictures}
     (RESULTS / f"{study.name}.json").write_text(json.dumps(stored, indent=2) + "\n")
     for row in outcome.rows:
         print(f"{study.name}: {row.quantity}: {number(row.breccia)}{', ' + verdict(row.met) if row.target else ''}", flush=True)
