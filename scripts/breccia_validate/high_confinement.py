@@ -71,7 +71,7 @@ and rises in the last quarter. The program whose figures Arrufat prints (with th
 Here the strength rises too fast with pressure, and the fall after it comes at every pressure but the highest. Nearly all broken bonds fail in shear:
 tan 30 degrees of friction act in each bond, with no cap, and again in each contact after it; spheres that roll and climb over one
 another add to that, so the envelope of the specimen has some 43 degrees, and what is broken dilates. At 500 MPa the bend of the curve where
-a peak may follow is only reached at the end of the run. What the source leaves open (E, softening, rolling) was not varied.
+a peak may follow is only reached at the end of the run, at 10 % of strain, so that "no peak" holds for as far as it went. What the source leaves open (E, softening, rolling) was not varied.
 """ + dynamic(result)
     return Outcome(rows, text, [curves_of(result, pictures / "high-confinement-triaxial.png")])
 
