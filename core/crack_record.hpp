@@ -9,10 +9,10 @@
 namespace breccia {
 
 struct Crack {
-  double time = 0;        ///< s
+  double time = 0;  ///< s
   Gid gid_lo = 0, gid_hi = 0;
-  Vec3 position;          ///< m, middle of the bond
-  Vec3 normal;            ///< from lo to hi
+  Vec3 position;  ///< m, middle of the bond
+  Vec3 normal;    ///< from lo to hi
   BondState mode = BondState::intact;
   double normal_force = 0;  ///< N, of the step before it broke, tension positive, without damping
   double shear_force = 0;   ///< N, magnitude, of the step before

@@ -37,7 +37,8 @@ void warn_if_dynamic(const CurveFindings& f, RunSummary& run) {
         100 * f.platen_mismatch));
 }
 
-/// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the lid's pressure.
+/// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the lid's
+/// pressure.
 CurveFindings findings(const std::string& test, const LoadResult& result) {
   std::vector<CurveRow> rows = result.record.rows;
   if (test == "shear")
@@ -52,7 +53,8 @@ CurveFindings findings(const std::string& test, const LoadResult& result) {
 void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunSummary& run) {
   run.tensile_strength_Pa = run.peak_stress_Pa;
   constexpr double strip = 0.15;  // half-width over radius
-  if (run.peak_stress_Pa) run.strip_corrected_strength_Pa = *run.peak_stress_Pa * std::pow(1 - strip * strip, 1.5);
+  if (run.peak_stress_Pa)
+    run.strip_corrected_strength_Pa = *run.peak_stress_Pa * std::pow(1 - strip * strip, 1.5);
   run.first_drop_stress_Pa = stress_at_first_drop(result.record.rows, 0.05);
   const auto& cracks = w.cracks.cracks;
   if (cracks.empty()) return;
@@ -65,10 +67,11 @@ void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunS
 /// Under even pressure there is no peak; the answer is a bulk modulus.
 void forget_the_peak(const LoadResult& result, RunSummary& run) {
   run.peak_reached = false;
-  run.peak_deviator_Pa = run.strain_at_peak = run.young_modulus_Pa = run.young_modulus_50_Pa = run.poisson_ratio =
-      run.crack_damage_stress_Pa = run.kinetic_ratio = run.platen_mismatch = {};
+  run.peak_deviator_Pa = run.strain_at_peak = run.young_modulus_Pa = run.young_modulus_50_Pa =
+      run.poisson_ratio = run.crack_damage_stress_Pa = run.kinetic_ratio = run.platen_mismatch = {};
   run.peak_stress_Pa = 0;
-  for (const CurveRow& row : result.record.rows) run.peak_stress_Pa = std::max(*run.peak_stress_Pa, row.axial_stress_Pa);
+  for (const CurveRow& row : result.record.rows)
+    run.peak_stress_Pa = std::max(*run.peak_stress_Pa, row.axial_stress_Pa);
   run.bulk_modulus_Pa = bulk_modulus(result.record.rows);
 }
 
@@ -120,7 +123,8 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   for (const Cycle& c : result.cycles) cycles.emplace_back(c.unloaded, c.reloaded);
   run.cycles = read_cycles(result.record.rows, cycles);
   if (w.cracks.missed > 0)
-    run.warnings.push_back(fmt::format("{} bonds broke in steps that broke too many at once to record each", w.cracks.missed));
+    run.warnings.push_back(
+        fmt::format("{} bonds broke in steps that broke too many at once to record each", w.cracks.missed));
   if (load.loading == Loading::hydrostatic) {
     forget_the_peak(result, run);
     return run;
@@ -136,7 +140,8 @@ void fit_peaks(SeriesSummary& series) {
     confinement.push_back(run.confinement_Pa);
     peak.push_back(*run.peak_stress_Pa);
   }
-  series.mohr_coulomb = series.test == "shear" ? fit_shear_line(confinement, peak) : fit_mohr_coulomb(confinement, peak);
+  series.mohr_coulomb =
+      series.test == "shear" ? fit_shear_line(confinement, peak) : fit_mohr_coulomb(confinement, peak);
 }
 
 }  // namespace breccia

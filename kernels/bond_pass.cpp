@@ -38,8 +38,8 @@ template <Features features>
 
 /// Which lanes of a batch broke in this step goes into the notes; rare, so out of the loop's way.
 template <Features features>
-[[gnu::noinline]] void note_breaks(const BondPassHistory& now, const BondHistory<Lanes>& before, std::size_t b,
-                                   BreakNotes& notes) {
+[[gnu::noinline]] void note_breaks(const BondPassHistory& now, const BondHistory<Lanes>& before,
+                                   std::size_t b, BreakNotes& notes) {
   for (std::size_t k = 0; k < width; ++k) {
     const bool was = before.damage_normal[k] >= 1.0 || before.damage_shear[k] >= 1.0;
     const bool is = now.damage_normal[b + k] >= 1.0 || now.damage_shear[b + k] >= 1.0;
@@ -117,6 +117,7 @@ constexpr std::array<BondPass, sizeof...(k)> all_passes(std::index_sequence<k...
 }  // namespace
 
 extern const std::array<BondPass, kernel_list.size()> passes;
-const std::array<BondPass, kernel_list.size()> passes = all_passes(std::make_index_sequence<kernel_list.size()>{});
+const std::array<BondPass, kernel_list.size()> passes =
+    all_passes(std::make_index_sequence<kernel_list.size()>{});
 
 }  // namespace breccia::BRECCIA_ISA
