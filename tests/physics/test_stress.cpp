@@ -59,7 +59,8 @@ Stress love(const World& w, const std::vector<Vec3>& from_outside) {
 }  // namespace
 
 TEST_CASE(
-    "stress: the mean over the bonds is what holds the specimen, where it holds it [Love, 1e-6 at rest]") {
+    "stress: the mean over the bonds is what holds the specimen, where it holds it [Love at rest, normal "
+    "1e-8, shear 1e-6]") {
   for (const bool rough : {true, false}) {
     const World w = compressed(elastic(), 500, rough, false);
     const auto f = scene::forces_now(w).force;
@@ -78,8 +79,12 @@ TEST_CASE(
     INFO("rough ", rough, ", platens ", size, ", xx yy zz ", got.normal.x, " ", got.normal.y, " ",
          got.normal.z);
     REQUIRE(size > 1e6);
-    hold(got.normal, want.normal, 1e-6 * size);
-    hold(got.shear, want.shear, 1e-6 * size);
+    MESSAGE(std::string(rough ? "rough" : "smooth"),
+            " platens: bonds against reactions where they act: off by ",
+            norm(got.normal - want.normal) / size,
+            "; against platen stress over the nominal height: ", -got.normal.z / size);
+    hold(got.normal, want.normal, 1e-8 * size);
+    hold(got.shear, want.shear, 1e-6 * size);  // 3e-8: slow modes of bending still die out
     // platens act on the centres in their layers, not on the nominal ends: a length between
     const double length = -got.normal.z / size * 0.10;
     CHECK(length > 0.10 - 2 * 1.5 * w.particles.radius[0] * 2);

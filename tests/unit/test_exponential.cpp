@@ -156,6 +156,7 @@ TEST_CASE("exponential law: no jump in force anywhere, never stiffer than k_n, K
   for (const auto& [g1, g3] : {std::pair{0.3, 0.9}, {0.0, 1.0}, {2.0, 0.0}}) {
     Set stiff = s;
     stiff.g1 = g1, stiff.g3 = g3;
+    for (const double e : {0.0021, 0.03}) CHECK(secant_ratio(law(stiff), e) == 1);
     const auto spring = scene::follow<features, double>(law(stiff), {b}, {ramp(b, {0.05}, 20)})[0].back();
     CHECK(-spring.force.x == doctest::Approx(s.E * b.area * 0.05).epsilon(1e-12));
   }
