@@ -59,8 +59,8 @@ Stress love(const World& w, const std::vector<Vec3>& from_outside) {
 }  // namespace
 
 TEST_CASE(
-    "stress: the mean over the bonds is what holds the specimen, where it holds it [Love at rest, normal "
-    "1e-8, shear 1e-6]") {
+    "stress: the mean over the bonds is what holds the specimen - where it holds it [Love at rest normal "
+    "1e-8 shear 1e-6]") {
   for (const bool rough : {true, false}) {
     const World w = compressed(elastic(), 500, rough, false);
     const auto f = scene::forces_now(w).force;
@@ -137,7 +137,7 @@ TEST_CASE("stress: two spheres pressed obliquely: every component in closed form
 }
 
 TEST_CASE(
-    "stress: failure state of single bonds: F_s/S, u_e/u_nf, the larger, 1 when broken [S5.21, 1e-12]") {
+    "stress: failure state of single bonds: F_s/S - u_e/u_nf - the larger - 1 when broken [S5.21 1e-12]") {
   ref::Parameters p;
   p.delta_n = 0.8, p.delta_s = 0.6;
   const double A = 3e-4, d0 = 0.02, k_n = p.E * A / d0, T = p.sigma_t * A, S = p.tau_f * A, u_l = T / k_n;
@@ -191,8 +191,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "sleeve: the skin does not move sideways, its pressure is the lateral stress of the network [MODEL 10, "
-    "Love, 1e-6]") {
+    "sleeve: the skin does not move sideways - its pressure is the lateral stress of the network [MODEL 10 "
+    "Love 1e-6]") {
   const World w = compressed(elastic(), 500, false, true);
   const auto f = scene::forces_now(w).force;
   double sideways = 0, reaction = 0, radial = 0, inner = 0;

@@ -510,7 +510,7 @@ TEST_CASE("case: what a later version brings is refused by name") {
     says(complaint(std::string("[") + l.table + "]\n" + l.line + "\n"), std::string("c.toml:2: ") + l.text);
 }
 
-TEST_CASE("case: areas of the bonds, those of the strengths beside them") {
+TEST_CASE("case: areas of the bonds - those of the strengths beside them") {
   for (const auto& [word, rule] : {std::pair{"minimum", AreaRule::minimum}, {"harmonic", AreaRule::harmonic},
                                    {"polyhedron", AreaRule::polyhedron}, {"voronoi", AreaRule::voronoi}}) {
     const std::string area = std::string("area = \"") + word + "\"\n";
@@ -537,7 +537,7 @@ const std::string glue = pack + "[material]\ndensity = 2500\nlaw = \"contact-bon
 
 }  // namespace
 
-TEST_CASE("case: law kdem has polyhedron areas and alpha 1 of its own, which the case may overrule") {
+TEST_CASE("case: law kdem has polyhedron areas and alpha 1 of its own - which the case may overrule") {
   const Case c = load(kdem);
   CHECK(c.bonds.area == AreaRule::polyhedron);
   CHECK(c.bonds.alpha_rule == AlphaRule::number);
@@ -559,7 +559,7 @@ TEST_CASE("case: law kdem has polyhedron areas and alpha 1 of its own, which the
   says(complaint(good + "normal_factor = 1\n"), "c.toml:7: material.normal_factor: law \"dempack\" has no normal_factor");
 }
 
-TEST_CASE("case: what a preset has for another law is left out, of the resolved case too") {
+TEST_CASE("case: what a preset has for another law is left out - of the resolved case too") {
   const Case c = load(good + "law = \"kdem\"\n", "ucs");  // the preset has delta_n = delta_s = 0.2
   CHECK(c.materials.at(0).damage_normal == 0);
   CHECK(c.materials[0].damage_shear == 0);
@@ -575,7 +575,7 @@ TEST_CASE("case: what a preset has for another law is left out, of the resolved 
   CHECK(load(e.resolved, "ucs").resolved == e.resolved);
 }
 
-TEST_CASE("case: law contact-bond needs its four constants and two dimensions, and has no area to scale") {
+TEST_CASE("case: law contact-bond needs its four constants and two dimensions and has no area to scale") {
   says(complaint(glue), "c.toml:7: material.law: law \"contact-bond\" is one of discs; set specimen.dimensions = 2");
   says(complaint(glue + "[bonds]\nalpha = \"auto\"\n"),
        "c.toml:14: bonds.alpha: law \"contact-bond\" has stiffnesses of its own, no area to scale; leave it out");
