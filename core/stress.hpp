@@ -11,7 +11,7 @@ struct Stress {
   Vec3 shear;   ///< yz, zx, xy
 };
 
-/// Mean stress of the volume: (1/V) sum F (x) l over bonds and contacts, F on hi along l from lo to hi.
+/// Mean stress of the volume: (1/V) sum F (x) l over bonds and contacts, F on lo, l from lo to hi.
 /// Santasusana's thesis, eq. 5.19; Bagi, Mech. Mater. 22 (1996) 165-177.
 Stress mean_stress_tensor(const World& world);
 

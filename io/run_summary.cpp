@@ -45,6 +45,7 @@ CurveFindings findings(const std::string& test, const LoadResult& result) {
     for (CurveRow& row : rows) row.confining_stress_Pa = 0;
   CurveFindings f = read_curve(rows, result.record.mismatch);
   if (test == "shear") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};
+  if (test == "usc") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};  // of no free side
   if (test == "bts") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = f.crack_damage_stress = {};
   return f;
 }

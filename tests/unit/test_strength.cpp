@@ -142,7 +142,7 @@ std::vector<CurveRow> through(const std::vector<std::pair<double, double>>& corn
 
 }  // namespace
 
-TEST_CASE("strength: cycles: moduli down and up and the strain that stays, of straight pieces [rel 1e-9]") {
+TEST_CASE("strength: cycles: moduli down and up and the strain that stays - of straight pieces [rel 1e-9]") {
   // up to 40 MPa at 0.002; down at 25 GPa to 4 MPa; up at 24 GPa to 40 MPa; on to 44 MPa at 0.003; again
   const double down = 0.002 - 36e6 / 25e9, up = down + 36e6 / 24e9, down2 = 0.003 - 39.6e6 / 20e9;
   const auto rows =
@@ -197,7 +197,7 @@ TEST_CASE(
   CHECK(!bulk_modulus(std::span(rows).first(3)));
 }
 
-TEST_CASE("strength: direct shear: tau = c + sigma tan phi through its strengths, and off it [rel 1e-12]") {
+TEST_CASE("strength: direct shear: tau = c + sigma tan phi through its strengths and off it [rel 1e-12]") {
   const double tan_phi = std::tan(32 * std::numbers::pi / 180);
   const std::vector<double> normal{1e6, 3e6, 10e6};
   std::vector<double> strength;
