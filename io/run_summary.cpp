@@ -37,6 +37,17 @@ void warn_if_dynamic(const CurveFindings& f, RunSummary& run) {
         100 * f.platen_mismatch));
 }
 
+/// Moduli are those of the first loading: a way up to the peak that was unloaded is no straight line.
+void read_moduli_before(double unloaded, std::span<const CurveRow> rows, std::span<const double> mismatch,
+                        CurveFindings& f) {
+  std::size_t count = 0;
+  while (count < rows.size() && rows[count].time_s < unloaded) ++count;
+  const CurveFindings first = read_curve(rows.first(count), mismatch.first(count));
+  f.young_modulus = first.young_modulus;
+  f.poisson_ratio = first.poisson_ratio;
+  f.young_modulus_50 = {};  // half the peak may lie beyond that loading
+}
+
 /// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the lid's
 /// pressure.
 CurveFindings findings(const std::string& test, const LoadResult& result) {
@@ -44,6 +55,8 @@ CurveFindings findings(const std::string& test, const LoadResult& result) {
   if (test == "shear")
     for (CurveRow& row : rows) row.confining_stress_Pa = 0;
   CurveFindings f = read_curve(rows, result.record.mismatch);
+  if (!result.cycles.empty())
+    read_moduli_before(result.cycles.front().unloaded, rows, result.record.mismatch, f);
   if (test == "shear") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};
   if (test == "usc") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};  // of no free side
   if (test == "bts") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = f.crack_damage_stress = {};
