@@ -30,7 +30,7 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
   CHECK(std::abs(m_z + 1e-3) < 1e-14);
   CHECK(m_r == 0);
   // and the radial one no further than the middle 40 % of the skin
-  const auto [far, r_r] = strains([](const Vec3& p) { return std::abs(p.z) < 0.02 && at_mantle(scene::small_cylinder(), p, 0, 0.02) ? Vec3{1e-3 * p.x, 1e-3 * p.y, 0} : Vec3{}; });
+  const auto [far, r_r] = strains([](const Vec3& p) { return std::abs(p.z) < 0.02 && at_mantle(scene::small_cylinder(), Space::solid, p, 0, 0.02) ? Vec3{1e-3 * p.x, 1e-3 * p.y, 0} : Vec3{}; });
   CHECK(far == 0);
   CHECK(r_r < 0);
   for (const Row row : radial.rows) {
