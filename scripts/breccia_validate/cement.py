@@ -38,11 +38,14 @@ def usc(results, pictures):
     half = 0.0005
     tangent = np.array([slope(smooth, e - half, e + half) for e in grid])
     onset = int(np.flatnonzero((tangent < 0.5 * first) & (smooth > 4))[0])
+    early = int(np.flatnonzero((tangent < 0.9 * first) & (smooth > 4))[0])
+    stiff = np.array([slope(axial, e - half, e + half) for e in grid])
     end = grid[-1]
     plateau = slope(smooth, grid[onset], grid[onset] + 0.005)
     last = slope(smooth, end - 0.008, end)
     first_axial = slope(axial, grid[smooth > 1][0], grid[smooth > 4][0])
     axial_last = slope(axial, end - 0.008, end)
+    flat = grid[np.flatnonzero((stiff < 0.1 * first_axial) & (smooth > 4))[0]]
 
     figure, axes = new_axes("Uniaxial strain of the cement plug", "axial strain of the gauge (%)", "MPa")
     axes.plot(100 * strain, curve["axial_stress_Pa"] / MPA, color=SHEAR, label="axial stress")
@@ -52,18 +55,22 @@ def usc(results, pictures):
     axes.plot(100 * grid[onset], smooth[onset], "o", color=TENSION)
     axes.legend()
     save(figure, pictures / "cement-usc.png")
+    broken = result.run()["broken_tension"] + result.run()["broken_shear"]
     text = f"""Strain is that of the gauge. Onset: the deviator at which its tangent, a least-squares line over 0.1 % of strain, falls to half of
-the first slope (1 to 4 MPa), {first / 1e3:.2f} GPa (E/(1 + nu) of the elastic specimen). Flat part: the line over the next 0.5 % of
-strain. Last part: the line over the last 0.8 % of strain, up to {100 * end:.1f} %.
-The law's slopes beyond its limits are E/3, E/9 and E/24 in a bond (YRC); all but a few bonds are beyond the third at the end.
+the first slope (1 to 4 MPa); the first slope of the elastic specimen is E/(1 + nu). The flat part begins where the tangent of the axial stress
+falls below a tenth of its first slope. The last slope is that of the last 0.8 % of strain, up to {100 * end:.1f} %; bonds beyond their
+third limit have 1/24 = 0.042 of their stiffness (YRC 3), {broken:,} of {result.run()['bonds']:,} are broken by then, nearly all in shear.
+After the knee the deviator sinks while the lateral stress rises: the specimen goes over to an even pressure, as it must when bonds shear off.
 {dynamic(result)}"""
     return Outcome([
         Row("deviator at the onset of non-linearity, MPa", smooth[onset], "about 10", None, "10 MPa within 15 %",
             within(smooth[onset], 10, 0.15), error=smooth[onset] / 10 - 1, run_time=result.run_time),
+        Row("deviator where the tangent has lost a tenth, MPa", smooth[early]),
         Row("first slope of the deviator, GPa", first / 1e3),
-        Row("slope after the onset over first slope", plateau / first),
-        Row("slope at the end over first slope, deviator", last / first),
-        Row("slope at the end over first slope, axial stress", axial_last / first_axial),
+        Row("slope in the 0.5 % of strain after the onset, over the first", plateau / first),
+        Row("flat from strain, %; axial stress there, MPa", f"{100 * flat:.2f}; {np.interp(flat, grid, axial):.1f}"),
+        Row("last slope over the first, axial stress", axial_last / first_axial),
+        Row("last slope over the first, deviator", last / first),
         Row(f"axial, lateral stress at {100 * end:.1f} %, MPa", f"{axial[-1]:.1f}, {axial[-1] - smooth[-1]:.1f}"),
     ], text, ["cement-usc.png"])
 
