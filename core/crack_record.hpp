@@ -16,7 +16,7 @@ struct Crack {
   BondState mode = BondState::intact;
   double normal_force = 0;  ///< N, of the step before it broke, tension positive, without damping
   double shear_force = 0;   ///< N, magnitude, of the step before
-  double area = 0;          ///< m^2
+  double area = 0;          ///< m^2, that its strength stood on
   double energy = 0;        ///< J, stored before less stored after
 };
 
