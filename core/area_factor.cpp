@@ -16,15 +16,16 @@ double fabric_of(const Assembly& a) {
   return sum / ((a.space == Space::plane ? 2.0 : 3.0) * a.volume());
 }
 
-/// Affine deformation: E = alpha T E (2 + 3 kappa)/(4 + kappa), discs: 2 alpha T E (1 + kappa)/(3 + kappa) in plane
-/// stress; an upper bound on the stiffness.
+/// Affine deformation: E = alpha T E (2 + 3 kappa)/(4 + kappa), discs: 2 alpha T E (1 + kappa)/(3 + kappa) in
+/// plane stress; an upper bound on the stiffness.
 double affine_alpha(double fabric, double kappa, Space space) {
   if (space == Space::plane) return (3.0 + kappa) / (2.0 + 2.0 * kappa) / fabric;
   return (4.0 + kappa) / (2.0 + 3.0 * kappa) / fabric;
 }
 
 /// The specimen with alpha = 1: what its ends and skin answer.
-ElasticResponse probe_with(const Assembly& a, const Material& material, double kappa, bool rough, int threads) {
+ElasticResponse probe_with(const Assembly& a, const Material& material, double kappa, bool rough,
+                           int threads) {
   const BondLaw law = law_of(material, kappa);
   const double ratio = std::visit([](const auto& l) { return l.shear_ratio; }, law);
   return probe(a, bond_stiffness(law, a.particles, a.bonds), ratio, rough, threads);
@@ -71,7 +72,8 @@ AreaFactor find_area_factor(const Assembly& a, const AreaFactorRequest& r, int t
   AreaFactor f;
   f.fabric = fabric_of(a);
   const bool matched = r.elasticity == Elasticity::matched;
-  f.shear_ratio = matched ? matched_shear_ratio(r.material.poisson_ratio, a.space == Space::plane) : paper_shear_ratio(r.material.poisson_ratio);
+  f.shear_ratio = matched ? matched_shear_ratio(r.material.poisson_ratio, a.space == Space::plane)
+                          : paper_shear_ratio(r.material.poisson_ratio);
   switch (r.rule) {
     case AlphaRule::number:
       f.alpha = r.number;

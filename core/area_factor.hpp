@@ -10,7 +10,7 @@ struct AreaFactorRequest {
   AlphaRule rule = AlphaRule::automatic;
   double number = 1.0;  ///< when rule is number
   Elasticity elasticity = Elasticity::paper;
-  Material material;        ///< with the E and nu wanted of the specimen
+  Material material;  ///< with the E and nu wanted of the specimen
   bool rough_platens = true;
 };
 

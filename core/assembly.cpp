@@ -35,8 +35,8 @@ struct Holder {
       case Grip::strips:
         return std::abs(x.x) < half_width && std::hypot(x.x, x.z) + s.radius > edge ? side : free_part;
       case Grip::halves:
-        return std::abs(x.z) > edge ||
-                       (std::abs(x.z) > half_width && at_mantle(*body, Space::solid, x, s.radius, mean_radius))
+        return std::abs(x.z) > edge || (std::abs(x.z) > half_width &&
+                                        at_mantle(*body, Space::solid, x, s.radius, mean_radius))
                    ? side
                    : free_part;
     }
@@ -45,9 +45,9 @@ struct Holder {
 };
 
 Holder holder_of(const Body& body, Grip grip, double mean_radius) {
-  // MODEL section 10: strips of half-width 0.15 R, 2.5 mean radii deep: of the spheres that reach that near the
-  // mantle, as the skin is found. With centres that near only, the strips crush their way in at 2.4 MPa where the
-  // disc would split at 2.8 (cement, 15,070 spheres)
+  // MODEL section 10: strips of half-width 0.15 R, 2.5 mean radii deep: of the spheres that reach that near
+  // the mantle, as the skin is found. With centres that near only, the strips crush their way in at 2.4 MPa
+  // where the disc would split at 2.8 (cement, 15,070 spheres)
   if (grip == Grip::strips)
     return {grip, 0.5 * body.diameter - 2.5 * mean_radius, 0.075 * body.diameter, &body, mean_radius};
   // a shear box leaves a band of five mean radii free
@@ -172,7 +172,8 @@ double Assembly::load_section() const {
 
 bool at_mantle(const Body& body, Space space, const Vec3& centre, double radius, double mean_radius) {
   const double reach = radius + 0.3 * mean_radius;
-  if (space == Space::plane && body.shape == Shape::box) return std::abs(centre.x) + reach > 0.5 * body.diameter;
+  if (space == Space::plane && body.shape == Shape::box)
+    return std::abs(centre.x) + reach > 0.5 * body.diameter;
   if (body.shape == Shape::box)
     return std::abs(centre.x) + reach > 0.5 * body.diameter || std::abs(centre.y) + reach > 0.5 * body.depth;
   return std::hypot(centre.x, body.on_edge ? centre.z : centre.y) + reach > 0.5 * body.diameter;

@@ -35,7 +35,7 @@ struct Assembly {
   double range = 0;           ///< beta that was used
   double coordination = 0;    ///< bonds per particle, both ends counted
   std::size_t dropped_bonds = 0;  ///< in range, but without an area (no common Voronoi face)
-  std::size_t short_bonds = 0;  ///< nested spheres whose strains use a floor for their length
+  std::size_t short_bonds = 0;    ///< nested spheres whose strains use a floor for their length
 
   double section() const;  ///< m^2, nominal, across the axis (of a disc on edge: its face)
   double mantle() const;   ///< m^2, nominal

@@ -9,12 +9,12 @@ namespace breccia {
 
 /// The lower and the upper platen: the two bodies of held particles (layers, strips, halves of a shear box).
 struct Platens {
-  bool rough = true;           ///< lateral motion prescribed too
-  bool servo = false;          ///< driven along z by a pressure instead of at a given speed
-  double section = 0;          ///< m^2, by which reactions become stresses
-  double pressure = 0;         ///< Pa, wanted of a servo
-  std::array<double, 2> mass{};  ///< kg, of the layers: the rigid bodies that a servo moves
-  double dashpot = 0;            ///< N s/m, holds back a servo
+  bool rough = true;               ///< lateral motion prescribed too
+  bool servo = false;              ///< driven along z by a pressure instead of at a given speed
+  double section = 0;              ///< m^2, by which reactions become stresses
+  double pressure = 0;             ///< Pa, wanted of a servo
+  std::array<double, 2> mass{};    ///< kg, of the layers: the rigid bodies that a servo moves
+  double dashpot = 0;              ///< N s/m, holds back a servo
   std::array<Vec3, 2> velocity{};  ///< m/s, half a step before position
   std::array<Vec3, 2> travel{};    ///< m, since the start
   std::array<Vec3, 2> force{};     ///< N, of the specimen on each
@@ -39,13 +39,13 @@ Platens make_platens(const Assembly& assembly, const ParticleTable& particles, b
 /// Reactions of this step, and for a servo the velocity that follows from them.
 void drive_platens(Platens& platens, const ParticleTable& particles, std::size_t first_top, double dt);
 
-/// What surrounds the mantle: a fluid under pressure, forces p w on each particle of the skin with weights w that
-/// add up to the nominal surface; or a rigid wall that lets it slide along the axis only.
+/// What surrounds the mantle: a fluid under pressure, forces p w on each particle of the skin with weights w
+/// that add up to the nominal surface; or a rigid wall that lets it slide along the axis only.
 struct Confinement {
-  bool rigid = false;       ///< x and y of the skin are fixed
-  bool plane = false;       ///< two dimensions: the skin is two sides, normal to x
-  double pressure = 0;      ///< Pa, now; of a rigid wall the mean reaction
-  double surface = 0;       ///< m^2, nominal
+  bool rigid = false;   ///< x and y of the skin are fixed
+  bool plane = false;   ///< two dimensions: the skin is two sides, normal to x
+  double pressure = 0;  ///< Pa, now; of a rigid wall the mean reaction
+  double surface = 0;   ///< m^2, nominal
   std::vector<Row> rows;
   std::vector<double> weight;  ///< m^2
   std::vector<Vec3> force;     ///< N, of this step

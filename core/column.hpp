@@ -12,8 +12,8 @@ namespace breccia {
 using Gid = std::uint64_t;  ///< global id of a particle, as in the specimen's file
 using Row = std::uint32_t;  ///< row of a table on this rank
 
-/// What a column is for. Identity, reference, history and state are saved and sent; derived is worked out for output; scratch is
-/// neither.
+/// What a column is for. Identity, reference, history and state are saved and sent; derived is worked out for
+/// output; scratch is neither.
 enum class Role { identity, reference, history, state, derived, scratch };
 
 /// The feature of the scene without which a column has no storage.

@@ -44,7 +44,7 @@ Crack crack_of(const Law& law, bool coupled, const FreshBreak& was, double dt, c
   crack.mode = bond_state(b, k);
   crack.normal_force = carried.normal;
   crack.shear_force = norm(carried.shear);
-  crack.area = b.area[k];
+  crack.area = bond.strength_area;
   crack.energy = stored_energy(law, bond, before, distance_before, coupled) -
                  stored_energy(law, bond, after, distance, coupled);
   return crack;

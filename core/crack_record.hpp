@@ -9,14 +9,14 @@
 namespace breccia {
 
 struct Crack {
-  double time = 0;        ///< s
+  double time = 0;  ///< s
   Gid gid_lo = 0, gid_hi = 0;
-  Vec3 position;          ///< m, middle of the bond
-  Vec3 normal;            ///< from lo to hi
+  Vec3 position;  ///< m, middle of the bond
+  Vec3 normal;    ///< from lo to hi
   BondState mode = BondState::intact;
   double normal_force = 0;  ///< N, of the step before it broke, tension positive, without damping
   double shear_force = 0;   ///< N, magnitude, of the step before
-  double area = 0;          ///< m^2
+  double area = 0;          ///< m^2, that its strength stood on
   double energy = 0;        ///< J, stored before less stored after
 };
 

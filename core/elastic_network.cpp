@@ -104,8 +104,9 @@ std::vector<double> bond_stiffness(const BondLaw& law, const ParticleTable& p, c
   std::visit(
       [&](const auto& l) {
         for (std::size_t k = 0; k < b.size; ++k)
-          k_n[k] = stiffness_of(
-              l, b.area[k], strain_length_of(b.rest_length[k], p.radius[b.row_lo[k]] + p.radius[b.row_hi[k]]));
+          k_n[k] =
+              stiffness_of(l, b.area[k],
+                           strain_length_of(b.rest_length[k], p.radius[b.row_lo[k]] + p.radius[b.row_hi[k]]));
       },
       law);
   return k_n;
@@ -129,7 +130,8 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
     if (rough) inverse_diagonal[at] = inverse_diagonal[at + 1] = 0.0;
   }
   if (a.space == Space::plane)
-    for (Eigen::Index at = 0; at < n; at += 6) inverse_diagonal[at + 1] = inverse_diagonal[at + 3] = inverse_diagonal[at + 5] = 0.0;
+    for (Eigen::Index at = 0; at < n; at += 6)
+      inverse_diagonal[at + 1] = inverse_diagonal[at + 3] = inverse_diagonal[at + 5] = 0.0;
   // the affine field is a good first guess
   for (std::size_t row = 0; row < a.particles.free; ++row)
     u[static_cast<Eigen::Index>(6 * row + 2)] =

@@ -45,13 +45,14 @@ struct ElasticResponse {
 };
 
 /// k_n of every bond that is not padding, N/m, with the areas that the table has now.
-std::vector<double> bond_stiffness(const BondLaw& law, const ParticleTable& particles, const BondTable& bonds);
+std::vector<double> bond_stiffness(const BondLaw& law, const ParticleTable& particles,
+                                   const BondTable& bonds);
 
 /// @param stiffness    N/m, k_n per bond
 /// @param shear_ratio  k_s/k_n
 /// @param rough  lateral motion of the layers fixed
 /// @throws BadInput when the specimen is not connected from end to end
-ElasticResponse probe(const Assembly& assembly, std::span<const double> stiffness, double shear_ratio, bool rough,
-                      int threads);
+ElasticResponse probe(const Assembly& assembly, std::span<const double> stiffness, double shear_ratio,
+                      bool rough, int threads);
 
 }  // namespace breccia

@@ -37,9 +37,7 @@ Gauge lateral_gauge(const Assembly& a) {
   if (g.rows.empty()) return g;
   mean = (1.0 / static_cast<double>(g.rows.size())) * mean;
   if (x_only) mean.y = 0.0;
-  const auto lever = [&](Row row) {
-    return Vec3{x[row].x - mean.x, x_only ? 0.0 : x[row].y - mean.y, 0.0};
-  };
+  const auto lever = [&](Row row) { return Vec3{x[row].x - mean.x, x_only ? 0.0 : x[row].y - mean.y, 0.0}; };
   double square = 0.0;
   for (const Row row : g.rows) square += dot(lever(row), lever(row));
   for (const Row row : g.rows) g.weights.push_back((-1.0 / square) * lever(row));

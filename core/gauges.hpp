@@ -16,8 +16,8 @@ struct Gauge {
 /// Least-squares slope of u_z over z0 in the middle half.
 Gauge axial_gauge(const Assembly& assembly);
 
-/// Least-squares widening across the axis: of the skin at mid-height (middle 40 %); of a disc on edge that of all
-/// particles there, along x. No rows where nothing lies there.
+/// Least-squares widening across the axis: of the skin at mid-height (middle 40 %); of a disc on edge that of
+/// all particles there, along x. No rows where nothing lies there.
 Gauge lateral_gauge(const Assembly& assembly);
 
 /// Strain of the gauge between reference and present positions.

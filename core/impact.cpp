@@ -134,7 +134,8 @@ void pair_forces(ImpactWorld& w) {
       continue;
     }
     const Pair<double> pair = relative_motion<true>(end_of(p, i), end_of(p, j), w.dt);
-    const double one = inertia(sphere_inertia_factor, p.mass[i], p.radius[i]), other = inertia(sphere_inertia_factor, p.mass[j], p.radius[j]);
+    const double one = inertia(sphere_inertia_factor, p.mass[i], p.radius[i]),
+                 other = inertia(sphere_inertia_factor, p.mass[j], p.radius[j]);
     press(w, t, k, {i, j, false, one * other / (one + other)}, touch - pair.distance, pair,
           rolling_spin(p.spin[i], p.spin[j], pair.normal));
   }
@@ -240,7 +241,8 @@ struct Rates {
 Rates rates_now(const ImpactWorld& w, std::size_t row) {
   const ParticleTable& p = w.particles;
   return {p.velocity[row] + (0.5 * w.dt / p.mass[row]) * p.force[row],
-          p.spin[row] + (0.5 * w.dt / inertia(sphere_inertia_factor, p.mass[row], p.radius[row])) * p.torque[row]};
+          p.spin[row] +
+              (0.5 * w.dt / inertia(sphere_inertia_factor, p.mass[row], p.radius[row])) * p.torque[row]};
 }
 
 double kinetic_now(const ImpactWorld& w) {

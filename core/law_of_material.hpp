@@ -11,7 +11,8 @@ double paper_shear_ratio(double poisson_ratio);
 /// (1 - 3 nu)/(1 + nu) of discs in plane stress.
 double matched_shear_ratio(double poisson_ratio, bool plane = false);
 
-/// Constants of the material's law. @param shear_ratio  k_s/k_n that the elasticity asks for; the law may scale it
+/// Constants of the material's law. @param shear_ratio  k_s/k_n that the elasticity asks for; the law may
+/// scale it
 BondLaw law_of(const Material& material, double shear_ratio);
 
 }  // namespace breccia

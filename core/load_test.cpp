@@ -68,7 +68,8 @@ Reading read(World& w, const Instruments& in) {
     return r;
   }
   r.platen_strain = in.sign * (approach(w.platens) - in.approach_zero) / in.free_length;
-  r.axial_strain = in.axial.rows.empty() ? r.platen_strain : in.sign * (gauge_now(w, in.axial) - in.axial_zero);
+  r.axial_strain =
+      in.axial.rows.empty() ? r.platen_strain : in.sign * (gauge_now(w, in.axial) - in.axial_zero);
   r.radial_strain =
       in.lateral.rows.empty() ? CurveRow::untracked : in.sign * (gauge_now(w, in.lateral) - in.lateral_zero);
   r.axial_stress = in.sign * axial_stress(w.platens);
@@ -210,10 +211,10 @@ double deviator(const CurveRow& row) { return row.axial_stress_Pa - row.confinin
 
 /// Where the platens are going: on, back while the specimen is unloaded, on again.
 struct Direction {
-  double sense = 1;       ///< -1 while unloading
-  std::size_t next = 0;   ///< in unload_at
-  double turned_at = 0;   ///< platen strain at which the last unloading began
-  double load = 0;        ///< Pa, deviator there
+  double sense = 1;      ///< -1 while unloading
+  std::size_t next = 0;  ///< in unload_at
+  double turned_at = 0;  ///< platen strain at which the last unloading began
+  double load = 0;       ///< Pa, deviator there
 
   bool on_envelope(const CurveRow& row) const { return sense > 0.0 && row.platen_strain >= turned_at; }
 
@@ -281,8 +282,7 @@ void load(Run& run) {
     run.teller.tell(2, done, row);
     run.teller.tell_cracks(w, row);
     direction.follow(test, row, run.result);
-    const bool dropped =
-        direction.on_envelope(row) && has_dropped(run, peak, row) && w.time - start > ramp;
+    const bool dropped = direction.on_envelope(row) && has_dropped(run, peak, row) && w.time - start > ramp;
     const bool interrupted = run.interrupted();
     const bool last = done >= 1.0 || dropped || interrupted;
     run.photographer.frame_if_due(w, done, row, last);
@@ -292,14 +292,15 @@ void load(Run& run) {
   }
 }
 
-/// The hydrostatic stage as a test of its own: the pressure rises evenly, at the rate at which an elastic specimen
-/// between platens of the given speed would take it up.
+/// The hydrostatic stage as a test of its own: the pressure rises evenly, at the rate at which an elastic
+/// specimen between platens of the given speed would take it up.
 void press_evenly(Run& run) {
   World& w = run.w;
   const LoadTest& test = run.test;
   const Instruments in = instruments_of(w, run.assembly, test);
   const double rate = w.material.young_modulus * 2.0 * test.platen_speed / run.assembly.length();
-  const double duration = test.confinement / rate, ramp = std::max(2.0 * crossing_time(w, run.assembly), 0.05 * duration);
+  const double duration = test.confinement / rate,
+               ramp = std::max(2.0 * crossing_time(w, run.assembly), 0.05 * duration);
   const double start = w.time;
   w.platens.servo = true;
   Recorder& recorder = run.result.record;

@@ -1,5 +1,6 @@
-// A laboratory test between two platens: hydrostatic stage where there is confinement, then loading at constant
-// speed and pressure. Compression, tension, direct shear, and the hydrostatic stage alone. MODEL section 10.
+// A laboratory test between two platens: hydrostatic stage where there is confinement, then loading at
+// constant speed and pressure. Compression, tension, direct shear, and the hydrostatic stage alone. MODEL
+// section 10.
 #pragma once
 #include <functional>
 #include <string>

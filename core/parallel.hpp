@@ -20,8 +20,8 @@ namespace breccia {
 template <class Index, class Work, class Partitioner = tbb::auto_partitioner>
 void for_tasks(Index tasks, const Work& work, const Partitioner& partitioner = {}) {
 #if defined(__SANITIZE_THREAD__)
-  // Debian's TBB is not instrumented: the thread sanitizer is told of its fork and join. Statics, and the task made
-  // before the fork: nothing of the task may be read before it has said that it has begun
+  // Debian's TBB is not instrumented: the thread sanitizer is told of its fork and join. Statics, and the
+  // task made before the fork: nothing of the task may be read before it has said that it has begun
   static char fork = 0, join = 0;
   const auto task = [&work](Index k) {
     __tsan_acquire(&fork);

@@ -19,8 +19,8 @@ enum class AreaRule { minimum, harmonic, polyhedron, voronoi };
 /// How forces of bonds whose ends are shared between threads are summed.
 enum class ScatterKind { atomic, private_sums, gather };
 
-/// Which particles the loading holds. ends: layers at both ends. strips: two strips along the mantle of a disc
-/// on edge. halves: the mantle's two halves and the end layers with them, a direct shear box.
+/// Which particles the loading holds. ends: layers at both ends. strips: two strips along the mantle of a
+/// disc on edge. halves: the mantle's two halves and the end layers with them, a direct shear box.
 enum class Grip { ends, strips, halves };
 
 /// What fluid pressure on a particle of the skin acts on: pi r^2, or its share of the mantle (Voronoi).

@@ -25,10 +25,10 @@ enum class Shape { cylinder, disc, box };
 /// The nominal body: areas and strains use it, not the spheres. Loaded along z.
 struct Body {
   Shape shape = Shape::cylinder;
-  double diameter = 0;  ///< m; cylinder, disc. A box: its width along x
-  double depth = 0;     ///< m; a box: its width along y
-  double height = 0;    ///< m, along the axis (disc: thickness)
-  bool on_edge = false; ///< a disc that stands: its axis is y, it is pressed across
+  double diameter = 0;   ///< m; cylinder, disc. A box: its width along x
+  double depth = 0;      ///< m; a box: its width along y
+  double height = 0;     ///< m, along the axis (disc: thickness)
+  bool on_edge = false;  ///< a disc that stands: its axis is y, it is pressed across
 };
 
 }  // namespace breccia

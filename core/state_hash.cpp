@@ -13,8 +13,7 @@ namespace {
 template <class Table>
 void add(std::uint64_t& hash, const Table& table, const std::vector<Row>& order) {
   table.for_each_column([&](const ColumnInfo& info, const auto& column) {
-    const bool hashed =
-        info.role == Role::identity || info.role == Role::history || info.role == Role::state;
+    const bool hashed = info.role == Role::identity || info.role == Role::history || info.role == Role::state;
     if (!hashed || column.empty()) return;
     for (const Row row : order) {
       unsigned char bytes[sizeof(column[row])];

@@ -94,7 +94,6 @@ std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement,
   return fit;
 }
 
-
 std::vector<CycleSummary> read_cycles(std::span<const CurveRow> rows,
                                       std::span<const std::pair<double, double>> times) {
   std::vector<CycleSummary> cycles;
@@ -109,7 +108,9 @@ std::vector<CycleSummary> read_cycles(std::span<const CurveRow> rows,
     const std::size_t top = at(unloaded), bottom = at(reloaded);
     const double load = deviator(rows[top]);
     std::size_t end = bottom;
-    while (end + 1 < rows.size() && deviator(rows[end]) < load && rows[end].axial_strain < rows[top].axial_strain) ++end;
+    while (end + 1 < rows.size() && deviator(rows[end]) < load &&
+           rows[end].axial_strain < rows[top].axial_strain)
+      ++end;
     const auto between = [&](std::size_t first, std::size_t last) {
       std::vector<CurveRow> part;
       for (std::size_t k = first; k <= last; ++k)
@@ -123,7 +124,8 @@ std::vector<CycleSummary> read_cycles(std::span<const CurveRow> rows,
     double mean_strain = 0, mean_deviator = 0;
     for (const CurveRow& r : down) mean_strain += r.axial_strain, mean_deviator += deviator(r);
     const double one = 1.0 / static_cast<double>(down.size());
-    cycles.push_back({rows[top].axial_strain, one * (mean_strain - mean_deviator / *unloading), *unloading, *reloading});
+    cycles.push_back(
+        {rows[top].axial_strain, one * (mean_strain - mean_deviator / *unloading), *unloading, *reloading});
   }
   return cycles;
 }
@@ -148,7 +150,8 @@ std::optional<double> bulk_modulus(std::span<const CurveRow> rows) {
       [](const CurveRow& r) { return (r.axial_stress_Pa + 2.0 * r.confining_stress_Pa) / 3.0; });
 }
 
-std::optional<MohrCoulomb> fit_shear_line(std::span<const double> normal_stress, std::span<const double> strength) {
+std::optional<MohrCoulomb> fit_shear_line(std::span<const double> normal_stress,
+                                          std::span<const double> strength) {
   const std::size_t n = normal_stress.size();
   double mx = 0, my = 0, xx = 0, xy = 0;
   for (std::size_t k = 0; k < n; ++k) mx += normal_stress[k] / double(n), my += strength[k] / double(n);

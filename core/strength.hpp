@@ -37,7 +37,8 @@ std::optional<double> stress_at_first_drop(std::span<const CurveRow> rows, doubl
 std::optional<double> bulk_modulus(std::span<const CurveRow> rows);
 
 /// Straight line tau = c + sigma tan phi through the strengths of a direct shear series.
-std::optional<MohrCoulomb> fit_shear_line(std::span<const double> normal_stress, std::span<const double> strength);
+std::optional<MohrCoulomb> fit_shear_line(std::span<const double> normal_stress,
+                                          std::span<const double> strength);
 
 /// Straight line sigma_1 = q + N sigma_3 through the peaks: sin phi = (N - 1)/(N + 1), c = q/(2 sqrt N).
 /// @returns nothing for fewer than two different confinements

@@ -87,8 +87,9 @@ void fill_stress_columns(World& w) {
   std::visit(
       [&](const auto& law) {
         for (std::size_t k = 0; k < b.size; ++k)
-          b.failure_state[k] = failure_state(law, constants_of_bond(b, k), history_of_bond(b, k),
-                                             norm(p.position[b.row_hi[k]] - p.position[b.row_lo[k]]), coupled);
+          b.failure_state[k] =
+              failure_state(law, constants_of_bond(b, k), history_of_bond(b, k),
+                            norm(p.position[b.row_hi[k]] - p.position[b.row_lo[k]]), coupled);
       },
       w.law);
 }

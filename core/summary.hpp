@@ -10,8 +10,8 @@ namespace breccia {
 
 /// One unloading and reloading.
 struct CycleSummary {
-  double strain = 0;               ///< at which unloading began
-  double permanent_strain = 0;     ///< where the unloading line meets zero deviator
+  double strain = 0;                ///< at which unloading began
+  double permanent_strain = 0;      ///< where the unloading line meets zero deviator
   double unloading_modulus_Pa = 0;  ///< least-squares slope between 90 and 30 % of the deviator
   double reloading_modulus_Pa = 0;
 };
@@ -29,15 +29,16 @@ struct RunSummary {
   std::optional<double> crack_initiation_stress_Pa;  ///< broken bonds reach 1 % of their number at the peak
   std::optional<double> crack_damage_stress_Pa;      ///< the volumetric strain turns
   std::optional<double> tensile_strength_Pa;         ///< bts: 2 P_max/(pi L D); tension: the peak
-  std::optional<double> strip_corrected_strength_Pa;  ///< bts: times (1 - (b/R)^2)^(3/2), strips of half-width b
-  std::optional<double> first_drop_stress_Pa;         ///< bts: the largest stress before it first fell by 5 %
-  std::string first_cracks;                           ///< bts: "central", or "crushed at the strips"
-  std::optional<double> bulk_modulus_Pa;              ///< hydrostatic: slope between 5 and 25 % of the pressure
+  std::optional<double>
+      strip_corrected_strength_Pa;             ///< bts: times (1 - (b/R)^2)^(3/2), strips of half-width b
+  std::optional<double> first_drop_stress_Pa;  ///< bts: the largest stress before it first fell by 5 %
+  std::string first_cracks;                    ///< bts: "central", or "crushed at the strips"
+  std::optional<double> bulk_modulus_Pa;       ///< hydrostatic: slope between 5 and 25 % of the pressure
   std::vector<CycleSummary> cycles;
-  std::optional<double> alpha;                       ///< area factor of the bonds
+  std::optional<double> alpha;  ///< area factor of the bonds
   std::uint64_t particles = 0;
   std::uint64_t bonds = 0;
-  double coordination = 0;  ///< bonds per particle, times two
+  double coordination = 0;          ///< bonds per particle, times two
   std::uint64_t dropped_bonds = 0;  ///< in range, without an area
   std::uint64_t short_bonds = 0;
   std::uint64_t broken_tension = 0;

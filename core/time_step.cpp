@@ -51,7 +51,8 @@ StepOperator step_operator(const ParticleTable& p, const BondTable& b, const Fre
   for (std::size_t row = 0; row < p.size; ++row) {
     const auto at = static_cast<Eigen::Index>(6 * row);
     op.by_mass.segment<3>(at).setConstant(1.0 / std::sqrt(p.mass[row]));
-    op.by_mass.segment<3>(at + 3).setConstant(1.0 / std::sqrt(inertia(freedom.inertia_factor, p.mass[row], p.radius[row])));
+    op.by_mass.segment<3>(at + 3).setConstant(
+        1.0 / std::sqrt(inertia(freedom.inertia_factor, p.mass[row], p.radius[row])));
     if (freedom.plane) op.by_mass[at + 1] = op.by_mass[at + 3] = op.by_mass[at + 5] = 0.0;
   }
   return op;

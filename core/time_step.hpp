@@ -8,8 +8,8 @@ namespace breccia {
 /// What the particles can do.
 struct Freedom {
   bool rotation = true;
-  bool plane = false;            ///< two dimensions: no motion along y, no turn about x and z
-  double inertia_factor = 0.4;   ///< I = factor m r^2
+  bool plane = false;           ///< two dimensions: no motion along y, no turn about x and z
+  double inertia_factor = 0.4;  ///< I = factor m r^2
 };
 
 /// With K and C the stiffness and damping of all bonds, intact and pressed, the scheme (damping forces from

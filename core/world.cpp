@@ -130,7 +130,8 @@ double stored_energy(const World& w) {
       [&](const auto& law) {
         return sum_rows<double>(b.size, w.options.threads, blocks, [&](std::size_t k) {
           const double distance = norm(w.particles.position[b.row_hi[k]] - w.particles.position[b.row_lo[k]]);
-          const BondConstants<double> bond{b.rest_length[k], b.area[k], strength_area[k], b.stiffness[k], 0.0};
+          const BondConstants<double> bond{b.rest_length[k], b.area[k], strength_area[k], b.stiffness[k],
+                                           0.0};
           const BondHistory<double> h{{b.shear_x[k], b.shear_y[k], b.shear_z[k]},
                                       plastic ? b.plastic_stretch[k] : 0.0,
                                       breakable ? b.damage_normal[k] : 0.0,

@@ -20,7 +20,7 @@ struct WorldOptions {
   bool rough_platens = true;
   bool rigid_skin = false;  ///< the mantle cannot move sideways
   SkinWeights skin_weights = SkinWeights::radius;
-  bool cracks = true;  ///< keep a record of broken bonds
+  bool cracks = true;            ///< keep a record of broken bonds
   double contact_damping = 0.9;  ///< xi
   bool paper_form = false;       ///< damping times pi alpha r_c/d0 (Onate et al. 2015, eq. 30)
   GlobalDamping global_damping{0.1, 0.1};
@@ -41,9 +41,9 @@ struct World {
   double alpha = 1;
   double young = 0, shear_ratio = 0;  ///< Pa and k_s/k_n of the bonds
   double friction = 0;                ///< of broken bonds and contacts
-  double critical_dt = 0;  ///< s, see critical_time_step
-  double dt = 0;           ///< s
-  double time = 0;         ///< s
+  double critical_dt = 0;             ///< s, see critical_time_step
+  double dt = 0;                      ///< s
+  double time = 0;                    ///< s
   std::uint64_t step = 0;
   ParticleTable particles;
   BondTable bonds;

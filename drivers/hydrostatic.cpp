@@ -1,5 +1,6 @@
 #include "io/test_program.hpp"
 
 int main(int argc, char** argv) {
-  return breccia::run_program("hydrostatic", "Hydrostatic compression of a cylinder up to a pressure.", argc, argv, breccia::run_test_program);
+  return breccia::run_program("hydrostatic", "Hydrostatic compression of a cylinder up to a pressure.", argc,
+                              argv, breccia::run_test_program);
 }

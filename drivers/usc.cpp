@@ -1,5 +1,7 @@
 #include "io/test_program.hpp"
 
 int main(int argc, char** argv) {
-  return breccia::run_program("usc", "Uniaxial strain compression: a cylinder whose mantle cannot move sideways.", argc, argv, breccia::run_test_program);
+  return breccia::run_program("usc",
+                              "Uniaxial strain compression: a cylinder whose mantle cannot move sideways.",
+                              argc, argv, breccia::run_test_program);
 }

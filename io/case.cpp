@@ -78,14 +78,17 @@ struct Checks {
       no("specimen.depth", "missing; a box has its width along x as diameter, and a depth");
     if (!box && has("specimen.depth")) no("specimen.depth", "belongs to shape = \"box\"; leave it out");
     if (test == "bts" && !disc) no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
-    if (test == "biaxial") no("specimen.dimensions", "a biaxial test has two; valid: 2 (in three: breccia-triaxial)");
+    if (test == "biaxial")
+      no("specimen.dimensions", "a biaxial test has two; valid: 2 (in three: breccia-triaxial)");
     if (test == "pack" || test == "bts") return;
     const bool boxes = test == "ucs" || test == "tension" || test == "shear";
     if (disc || (box && !boxes)) {
-      const std::string text = fmt::format(
-          "{}: specimen.shape \"{}\" does not go with breccia-{}; valid: {}", place("specimen.shape"),
-          disc ? "disc" : box ? "box" : "cylinder", test,
-          boxes ? "\"cylinder\", \"box\"" : "\"cylinder\"");
+      const std::string text = fmt::format("{}: specimen.shape \"{}\" does not go with breccia-{}; valid: {}",
+                                           place("specimen.shape"),
+                                           disc  ? "disc"
+                                           : box ? "box"
+                                                 : "cylinder",
+                                           test, boxes ? "\"cylinder\", \"box\"" : "\"cylinder\"");
       throw BadInput(text);
     }
   }
@@ -142,8 +145,9 @@ struct Checks {
   void loading() const {
     if (test == "hydrostatic" || test == "shear") {
       if (!has("test.confinement"))
-        no("test.confinement", test == "shear" ? "missing; give the normal stresses on the lid, [\"1 MPa\", \"5 MPa\"]"
-                                               : "missing; give the pressure to reach, [\"650 MPa\"]");
+        no("test.confinement", test == "shear"
+                                   ? "missing; give the normal stresses on the lid, [\"1 MPa\", \"5 MPa\"]"
+                                   : "missing; give the pressure to reach, [\"650 MPa\"]");
       for (double p : c.test.confinement)
         if (!(p > 0)) no("test.confinement", "must be more than 0 Pa");
     }
@@ -160,7 +164,8 @@ struct Checks {
   void law(const std::string& name, const std::string& where) const {
     const bool of_bonds = facts_of(name).has("normal_stiffness");
     if (of_bonds && c.bonds.alpha_rule != AlphaRule::number)
-      no("bonds.alpha", fmt::format("law {} has stiffnesses of its own, no area to scale; leave it out", quote(name)));
+      no("bonds.alpha",
+         fmt::format("law {} has stiffnesses of its own, no area to scale; leave it out", quote(name)));
     if (of_bonds && c.specimen.space != Space::plane)
       refuse(where, "material.law",
              fmt::format("law {} is one of discs; set specimen.dimensions = 2", quote(name)));

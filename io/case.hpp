@@ -43,7 +43,7 @@ struct TestCase {
   bool rough_platens = true;
   double platen_speed = 0.1;  ///< m/s, of each platen
   double stop_strain = 0.02;
-  double stop_after_peak = 0.5;  ///< fraction of the peak deviator; 0 = never
+  double stop_after_peak = 0.5;   ///< fraction of the peak deviator; 0 = never
   std::vector<double> unload_at;  ///< platen strains
   double unload_to = 0.1;
   std::optional<char> load_axis;  ///< bts: in the file
@@ -67,7 +67,7 @@ struct Case {
   ScatterKind scatter = ScatterKind::private_sums;
   int frames = 20;
   bool stress = false, cracks = true;  ///< output
-  std::string resolved;  ///< the whole case as TOML, every default written out
+  std::string resolved;                ///< the whole case as TOML, every default written out
 };
 
 /// Reads, checks and resolves a case file.

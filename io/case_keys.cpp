@@ -43,7 +43,10 @@ ScatterKind scatter_of(std::string_view word) {
 
 AreaRule area_of(std::string_view word) {
   using enum AreaRule;
-  return word == "harmonic" ? harmonic : word == "polyhedron" ? polyhedron : word == "voronoi" ? voronoi : minimum;
+  return word == "harmonic"     ? harmonic
+         : word == "polyhedron" ? polyhedron
+         : word == "voronoi"    ? voronoi
+                                : minimum;
 }
 
 /// A packing is asked for as soon as one of its keys is given.
@@ -472,8 +475,8 @@ std::vector<Key> keys_of_laws() {
     for (const LawParameter& parameter : law.own) {
       Key key;
       key.name = names.emplace_back(fmt::format("material.{}", parameter.key));
-      key.dimension = parameter.unit == "N/m" ? dimension::stiffness
-                      : parameter.unit == "N" ? dimension::force
+      key.dimension = parameter.unit == "N/m"  ? dimension::stiffness
+                      : parameter.unit == "N"  ? dimension::force
                       : parameter.unit == "Pa" ? dimension::stress
                                                : dimension::number;
       key.range = parameter.above ? more_than(parameter.low) : at_least(parameter.low);
@@ -490,10 +493,12 @@ std::vector<Key> keys_of_laws() {
 std::span<const Key> all_keys() {
   static const std::vector<Key> all = [] {
     std::vector<Key> list(keys.begin(), keys.end());
-    const auto after = std::find_if(list.begin(), list.end(), [](const Key& k) { return k.name == "material.criterion"; });
+    const auto after =
+        std::find_if(list.begin(), list.end(), [](const Key& k) { return k.name == "material.criterion"; });
     static std::string laws;  // the words of material.law are the laws that there are
     for_each_law([](const auto& law) { laws += fmt::format("{}{}", laws.empty() ? "" : " ", law.name); });
-    std::find_if(list.begin(), list.end(), [](const Key& k) { return k.name == "material.law"; })->words = laws;
+    std::find_if(list.begin(), list.end(), [](const Key& k) { return k.name == "material.law"; })->words =
+        laws;
     const auto own = keys_of_laws();
     list.insert(after + 1, own.begin(), own.end());
     return list;

@@ -47,7 +47,8 @@ const LawFacts& facts_of(std::string_view law);
 /// The law that a material's keys ask for.
 std::string law_of(const Layer& material);
 
-/// A key in the case for something that its law lacks is refused by name; presets may hold more than a law uses.
+/// A key in the case for something that its law lacks is refused by name; presets may hold more than a law
+/// uses.
 void refuse_foreign_keys(const Layer& given, const std::string& law);
 
 /// Checks that nothing is missing for the features in use and fills a Material.

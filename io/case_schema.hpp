@@ -47,7 +47,7 @@ struct Key {
   std::string_view not_for{};     ///< tests that refuse it
   std::string_view why_not{};     ///< the reason
   std::string_view meaning{};
-  std::string_view law{};         ///< a parameter that this law alone has
+  std::string_view law{};  ///< a parameter that this law alone has
   void (*store)(Case&, const Reading&) = nullptr;
   void (*store_material)(Material&, const Reading&) = nullptr;
 };

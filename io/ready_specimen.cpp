@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
 #include "core/elastic_network.hpp"
+#include "core/error.hpp"
 #include "core/law_of_material.hpp"
 #include "core/section_area.hpp"
 #include "io/case_material.hpp"
@@ -50,8 +50,8 @@ Features features_that_run(const Case& c, const Features& asked) {
 std::string describe(const Assembly& a) {
   return fmt::format(
       "{} {}, mean radius {:.4g} mm; {} bonds within a range of {:.3g}, {:.2f} per {}{}{}", a.particles.size,
-      a.space == Space::plane ? "discs" : "spheres", a.mean_radius * 1e3, a.bonds.size, a.range, a.coordination,
-      a.space == Space::plane ? "disc" : "sphere",
+      a.space == Space::plane ? "discs" : "spheres", a.mean_radius * 1e3, a.bonds.size, a.range,
+      a.coordination, a.space == Space::plane ? "disc" : "sphere",
       a.short_bonds ? fmt::format(", {} of nested spheres", a.short_bonds) : "",
       a.dropped_bonds ? fmt::format("; {} pairs in range have no common face", a.dropped_bonds) : "");
 }
@@ -61,8 +61,8 @@ AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, 
   const AreaFactor f = find_area_factor(
       assembly, {rule, c.bonds.alpha, c.bonds.elasticity, c.materials.front(), rough}, threads);
   const BondLaw law = law_of(c.materials.front(), f.shear_ratio);
-  say(progress, fmt::format("alpha {:.4f} (areas tile space {:.3f} times), k_s/k_n {:.4f}{}", f.alpha, f.fabric,
-                            std::visit([](const auto& l) { return l.shear_ratio; }, law),
+  say(progress, fmt::format("alpha {:.4f} (areas tile space {:.3f} times), k_s/k_n {:.4f}{}", f.alpha,
+                            f.fabric, std::visit([](const auto& l) { return l.shear_ratio; }, law),
                             f.probes ? fmt::format("; elastic probe: E {:.4g} GPa, nu {:.4f}",
                                                    f.young_modulus * 1e-9, f.poisson_ratio)
                                      : ""));
@@ -76,8 +76,8 @@ std::string describe_elasticity(const Case& c, const ReadySpecimen& ready, int t
   if (a.grip != Grip::ends) return "";
   const Material& m = c.materials.front();
   const double reach = 0.4 * a.length();  // the levels of the thesis' table 5.1, away from the ends
-  const double covered = area_through_levels(a.particles, a.bonds, std::span(a.bonds.area).first(a.bonds.size),
-                                             -reach, reach, 41)
+  const double covered = area_through_levels(a.particles, a.bonds,
+                                             std::span(a.bonds.area).first(a.bonds.size), -reach, reach, 41)
                              .mean /
                          a.section();
   for (double& area : a.bonds.area) area *= ready.factor.alpha;
@@ -85,20 +85,23 @@ std::string describe_elasticity(const Case& c, const ReadySpecimen& ready, int t
   const double ratio = std::visit([](const auto& l) { return l.shear_ratio; }, law);
   const ElasticResponse e =
       probe(a, bond_stiffness(law, a.particles, a.bonds), ratio, c.test.rough_platens, threads);
-  return fmt::format("specimen: E {:.7g} GPa, nu {:.6f} with k_s/k_n {:.4f}; their areas cover a section {:.4f} times",
-                     e.young_modulus * 1e-9, e.poisson_ratio, ratio, covered);
+  return fmt::format(
+      "specimen: E {:.7g} GPa, nu {:.6f} with k_s/k_n {:.4f}; their areas cover a section {:.4f} times",
+      e.young_modulus * 1e-9, e.poisson_ratio, ratio, covered);
 }
 
 ReadySpecimen make_ready(const Case& c, const std::string& test, const Features& asked, int threads,
                          Progress& progress) {
   const Features features = features_that_run(c, asked);
-  BondingRule rule{c.bonds.range, c.bonds.coordination, c.bonds.area, c.bonds.strength_area,
-                   c.specimen.space, Grip::ends};
+  BondingRule rule{c.bonds.range,         c.bonds.coordination, c.bonds.area,
+                   c.bonds.strength_area, c.specimen.space,     Grip::ends};
   const Specimen specimen = make_specimen(c, progress);
   Body body = c.specimen.body;
   if (c.specimen.space == Space::plane) {  // one metre thick
-    if (body.shape == Shape::box) body.depth = 1.0;
-    else body.height = 1.0;
+    if (body.shape == Shape::box)
+      body.depth = 1.0;
+    else
+      body.height = 1.0;
   }
   ReadySpecimen ready;
   const auto bonded = [&](const Specimen& s, const Body& b, Grip grip) {

@@ -19,8 +19,8 @@ struct ReadySpecimen {
   AreaFactor factor;
 };
 
-/// What a study of the specimen asks: the modulus and Poisson ratio that an elastic probe reads with the factor in
-/// use, and how often the bonds' areas cover a section. One line.
+/// What a study of the specimen asks: the modulus and Poisson ratio that an elastic probe reads with the
+/// factor in use, and how often the bonds' areas cover a section. One line.
 std::string describe_elasticity(const Case& c, const ReadySpecimen& ready, int threads);
 
 /// @param test      name of the program

@@ -31,7 +31,7 @@ template <>
 constexpr std::size_t components_of<Vec3> = 3;
 
 bool stays(Role role) { return role == Role::identity || role == Role::reference; }
-bool changes(Role role) { return role == Role::history || role == Role::state; }
+bool changes(Role role) { return role == Role::history || role == Role::state || role == Role::derived; }
 
 template <class T>
 void write_rows(hid_t group, const ColumnInfo& info, std::string_view role, const std::vector<T>& rows) {

@@ -4,7 +4,7 @@
 //   /run-K                the numbers given, e.g. confinement_Pa
 //     particles, bonds    columns that stay: identity, reference
 //     frame-NNN           time_s, step, axial_strain
-//       particles, bonds  columns that change: history, state; bonds/state as a byte
+//       particles, bonds  columns that change: history, state, derived; bonds/state as a byte
 //
 // One dataset per column (Vec3: N x 3) with the attributes unit, role and meaning; columns of features that
 // the scene leaves out are absent. Particles in order of gid, bonds of (gid_lo, gid_hi): row i is the same

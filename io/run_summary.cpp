@@ -58,6 +58,7 @@ CurveFindings findings(const std::string& test, const LoadResult& result) {
   if (!result.cycles.empty())
     read_moduli_before(result.cycles.front().unloaded, rows, result.record.mismatch, f);
   if (test == "shear") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};
+  if (test == "usc") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};  // of no free side
   if (test == "bts") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = f.crack_damage_stress = {};
   return f;
 }

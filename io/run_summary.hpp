@@ -6,8 +6,8 @@
 namespace breccia {
 
 /// @param test  name of the program: what a curve means depends on it
-RunSummary summarise(const std::string& test, const World& world, const Assembly& assembly, const LoadTest& load,
-                     const LoadResult& result);
+RunSummary summarise(const std::string& test, const World& world, const Assembly& assembly,
+                     const LoadTest& load, const LoadResult& result);
 
 /// The straight line through the peaks of a series, where the test has one.
 void fit_peaks(SeriesSummary& series);

@@ -67,7 +67,8 @@ std::string fracture_energies(const World& w, const Law& law) {
                                      w.bonds.stiffness[k], 0.0};
     const auto limits = limits_of(law, bond);
     const double length = strain_length(law.young, bond);
-    normal += 0.5 * limits.tension * limits.tension / bond.stiffness * (1.0 + delta_normal(law.failure, length));
+    normal +=
+        0.5 * limits.tension * limits.tension / bond.stiffness * (1.0 + delta_normal(law.failure, length));
     if (law.shear_ratio > 0)
       shear += 0.5 * limits.cohesion * limits.cohesion / (law.shear_ratio * bond.stiffness) *
                (1.0 + delta_shear(law.failure, length));

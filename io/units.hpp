@@ -14,8 +14,7 @@ struct Dimension {
 
 namespace dimension {
 inline constexpr Dimension number{}, mass{1, 0, 0}, length{0, 1, 0}, time{0, 0, 1}, speed{0, 1, -1},
-    force{1, 1, -2}, stress{1, -1, -2}, density{1, -3, 0}, energy_per_area{1, 0, -2},
-    stiffness{1, 0, -2};
+    force{1, 1, -2}, stress{1, -1, -2}, density{1, -3, 0}, energy_per_area{1, 0, -2}, stiffness{1, 0, -2};
 }
 
 /// What a dimension is called: "a length", "a stress"; base units where it has no name: "kg*m^2".

@@ -7,9 +7,9 @@ namespace breccia {
 /// Factors on k_n and k_s, and what they come from.
 struct BondSecant {
   bool broken = false, pulled = false;
-  double elastic = 0;   ///< m, u - u_p
-  double normal = 1;    ///< g of k_n: 0 broken and apart
-  double shear = 1;     ///< g of k_s
+  double elastic = 0;  ///< m, u - u_p
+  double normal = 1;   ///< g of k_n: 0 broken and apart
+  double shear = 1;    ///< g of k_s
   double delta_normal = 0, delta_shear = 0;
 };
 
@@ -55,8 +55,8 @@ inline BondForce<double> force_of_state(const Law& law, const BondConstants<doub
   return {s.normal * bond.stiffness * s.elastic, s.normal, s.shear * h.shear};
 }
 
-/// How near a bond is to failure: max(F_s/S, u_e/u_nf), 1 once broken. Santasusana's thesis, eq. 5.21, with the
-/// stretch at which tension has softened to nothing for u_nf.
+/// How near a bond is to failure: max(F_s/S, u_e/u_nf), 1 once broken. Santasusana's thesis, eq. 5.21, with
+/// the stretch at which tension has softened to nothing for u_nf.
 template <class Law>
 inline double failure_state(const Law& law, const BondConstants<double>& bond, const BondHistory<double>& h,
                             double distance, bool coupled) {
@@ -68,7 +68,8 @@ inline double failure_state(const Law& law, const BondConstants<double>& bond, c
   const double strength = larger(0.0, limits.cohesion + law.failure.friction_pressed * larger(-normal, 0.0) -
                                           law.failure.friction_pulled * larger(normal, 0.0));
   const double across = strength > 0.0 ? s.shear * norm(h.shear) / strength : 0.0;
-  const double along = s.pulled ? bond.stiffness * s.elastic / (limits.tension * (1.0 + s.delta_normal)) : 0.0;
+  const double along =
+      s.pulled ? bond.stiffness * s.elastic / (limits.tension * (1.0 + s.delta_normal)) : 0.0;
   return smaller(1.0, larger(across, along));
 }
 

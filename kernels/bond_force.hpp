@@ -8,7 +8,8 @@ namespace breccia {
 /// Advances the history of a bond and returns the force on lo, N (damping included), given the motion of its
 /// ends over the step.
 template <Features features, class Law, class R>
-inline Vec<R> bond_force(const Law& law, const BondConstants<R>& bond, const Pair<R>& pair, BondHistory<R>& h) {
+inline Vec<R> bond_force(const Law& law, const BondConstants<R>& bond, const Pair<R>& pair,
+                         BondHistory<R>& h) {
   const R u = pair.distance - bond.rest_length;
   h.shear = carry<features.rotation>(h.shear, pair) + (R(law.shear_ratio) * bond.stiffness) * pair.slip;
   R elastic = u;
@@ -18,8 +19,8 @@ inline Vec<R> bond_force(const Law& law, const BondConstants<R>& bond, const Pai
   }
   BondForce<R> f;
   if constexpr (features.breakage)
-    f = breakable_force<features.criterion == Criterion::coupled>(law.failure, law.young, limits_of(law, bond), bond,
-                                                                  elastic, h);
+    f = breakable_force<features.criterion == Criterion::coupled>(law.failure, law.young,
+                                                                  limits_of(law, bond), bond, elastic, h);
   else
     f = {bond.stiffness * elastic, R(1.0), h.shear};
 

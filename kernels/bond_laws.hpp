@@ -17,9 +17,8 @@ using BondLaw = std::variant<DempackLaw,      //
 /// Calls visit(type) with a default-made law of each kind; its constants mean nothing.
 template <class Visit>
 constexpr void for_each_law(Visit&& visit) {
-  [&]<std::size_t... k>(std::index_sequence<k...>) {
-    (visit(std::variant_alternative_t<k, BondLaw>{}), ...);
-  }(std::make_index_sequence<std::variant_size_v<BondLaw>>{});
+  [&]<std::size_t... k>(std::index_sequence<k...>) { (visit(std::variant_alternative_t<k, BondLaw>{}), ...); }
+  (std::make_index_sequence<std::variant_size_v<BondLaw>>{});
 }
 
 }  // namespace breccia

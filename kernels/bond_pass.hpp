@@ -15,7 +15,7 @@ inline constexpr std::size_t bond_batch = 8;
 
 /// What the pass reads. Particle spans by particle row, bond spans by bond row.
 struct BondPassIn {
-  double dt = 0;  ///< s
+  double dt = 0;              ///< s
   const void* law = nullptr;  ///< constants, of the type that the kernel was chosen for (see constants_of)
   std::span<const Vec3> position, velocity, spin;
   std::span<const double> radius;

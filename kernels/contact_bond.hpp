@@ -1,7 +1,7 @@
-// The contact bond of discs: a point of glue with stiffnesses and strengths that do not depend on the size of the
-// discs; Coulomb friction once it is broken. Fakhimi and Villegas, "Application of dimensional analysis in
-// calibration of a discrete element model for rock deformation and fracture", Rock Mech. Rock Engng 40 (2007)
-// 193-211; MODEL section 5.
+// The contact bond of discs: a point of glue with stiffnesses and strengths that do not depend on the size of
+// the discs; Coulomb friction once it is broken. Fakhimi and Villegas, "Application of dimensional analysis
+// in calibration of a discrete element model for rock deformation and fracture", Rock Mech. Rock Engng 40
+// (2007) 193-211; MODEL section 5.
 #pragma once
 #include <array>
 
@@ -25,7 +25,7 @@ struct ContactBondLaw {
   double young = 0;        ///< Pa, only for what needs a wave speed
   double shear_ratio = 0;  ///< k_s/k_n
   Failure failure;
-  double stiffness = 0;                       ///< N/m
+  double stiffness = 0;                            ///< N/m
   double normal_strength = 0, shear_strength = 0;  ///< N
 
   static ContactBondLaw of(const Material& m, double) {

@@ -23,8 +23,8 @@ struct DempackLaw {
       Features{.criterion = Criterion::coupled},
   };
 
-  double young = 0;                      ///< Pa; E of the bonds: k_n = E A/L
-  double shear_ratio = 0;                ///< kappa = k_s/k_n
+  double young = 0;        ///< Pa; E of the bonds: k_n = E A/L
+  double shear_ratio = 0;  ///< kappa = k_s/k_n
   Failure failure;
   std::array<double, 3> limit_stress{};  ///< Pa, LCS
   std::array<double, 3> limit_strain{};  ///< compressive strain at which each limit is met

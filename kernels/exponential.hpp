@@ -1,7 +1,7 @@
 // Concrete under high confinement: linear up to a compressive strain, then a secant stiffness that falls and,
-// as pores close, rises exponentially; Mohr-Coulomb in shear. Tran, Donze and Marin, "Discrete element modelling
-// of concrete under high-triaxial loading", Cem. Concr. Compos. 33 (2011), as in the Arrufat thesis, section 4.3;
-// MODEL section 5.
+// as pores close, rises exponentially; Mohr-Coulomb in shear. Tran, Donze and Marin, "Discrete element
+// modelling of concrete under high-triaxial loading", Cem. Concr. Compos. 33 (2011), as in the Arrufat
+// thesis, section 4.3; MODEL section 5.
 #pragma once
 #include <array>
 
@@ -14,7 +14,8 @@ struct ExponentialLaw {
   static constexpr std::string_view takes =
       "friction_static friction_dynamic tensile_strength shear_strength damage_normal damage_shear";
   static constexpr std::array own{
-      LawParameter{"elastic_strain_limit", "1", 0.0, "0.002", "e_max: compressive strain where hardening begins"},
+      LawParameter{"elastic_strain_limit", "1", 0.0, "0.002",
+                   "e_max: compressive strain where hardening begins"},
       LawParameter{"hardening_factor", "1", 0.0, "0.2", "gamma_1: of the exponential part of K2/k_n"},
       LawParameter{"hardening_rate", "1", 0.0, "16", "gamma_2: growth of K2 with strain"},
       LawParameter{"hardening_floor", "1", 0.0, "0.275", "gamma_3: of the constant part of K2/k_n"},
@@ -54,13 +55,14 @@ inline R secant_ratio(const ExponentialLaw& law, const R& e) {
 
 /// Puts a compressive trial above the envelope k_n L e_max + K2 L (e - e_max) back onto it.
 template <class R>
-inline R plastic_stretch(const ExponentialLaw& law, const BondConstants<R>& bond, const R& u, const R& before) {
+inline R plastic_stretch(const ExponentialLaw& law, const BondConstants<R>& bond, const R& u,
+                         const R& before) {
   const R length = strain_length(law.young, bond);
   const R e = -u / length;
   const auto beyond = e > R(law.strain_limit);
   if (!any(beyond)) return before;
-  const R limit = bond.stiffness * length *
-                  (R(law.strain_limit) + secant_ratio(law, e) * (e - R(law.strain_limit)));
+  const R limit =
+      bond.stiffness * length * (R(law.strain_limit) + secant_ratio(law, e) * (e - R(law.strain_limit)));
   const R trial = -bond.stiffness * (u - before);
   return select(beyond && trial > limit, u + limit / bond.stiffness, before);
 }

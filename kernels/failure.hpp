@@ -37,7 +37,8 @@ inline Failure failure_of(const Material& m, double young, double shear_ratio) {
   f.friction_pressed = m.friction_static;
   f.friction_pulled = m.criterion == Criterion::mohr_coulomb ? m.friction_static : 0.0;
   f.friction_dynamic = m.friction_dynamic;
-  // delta = 2 E G_I/(sigma_t^2 L) - 1 and 2 k_s G_II/(tau_f^2 A) - 1, with k_s = kappa E A/L (MODEL section 3)
+  // delta = 2 E G_I/(sigma_t^2 L) - 1 and 2 k_s G_II/(tau_f^2 A) - 1, with k_s = kappa E A/L (MODEL section
+  // 3)
   f.softening_normal = m.damage_normal;
   if (m.fracture_energy_normal) {
     f.softening_normal = -1.0;
@@ -76,11 +77,13 @@ inline R delta_shear(const Failure& failure, const R& length) {
   return larger(R(failure.softening_shear) + R(failure.softening_shear_length) / length, R(0.0));
 }
 
-/// Tension, shear and friction of one bond. `h.shear` has been carried along and has had this step's k_s du added.
+/// Tension, shear and friction of one bond. `h.shear` has been carried along and has had this step's k_s du
+/// added.
 /// @param young  Pa; with the area it gives the length that softening refers to
 template <bool coupled, class R>
 inline BondForce<R> breakable_force(const Failure& failure, double young, const BondLimits<R>& limits,
-                                    const BondConstants<R>& bond, const R& elastic_stretch, BondHistory<R>& h) {
+                                    const BondConstants<R>& bond, const R& elastic_stretch,
+                                    BondHistory<R>& h) {
   const R zero(0.0), one(1.0);
   R normal = bond.stiffness * elastic_stretch;
   auto broken = h.damage_normal >= one || h.damage_shear >= one;
@@ -125,8 +128,8 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
   const R pressure = larger(-normal, zero);
   const R friction = R(failure.friction_dynamic) * pressure;
   const R pull = larger(normal, zero);
-  const R strength = larger(zero, limits.cohesion + R(failure.friction_pressed) * pressure -
-                                      R(failure.friction_pulled) * pull);
+  const R strength = larger(
+      zero, limits.cohesion + R(failure.friction_pressed) * pressure - R(failure.friction_pulled) * pull);
 
   auto sheared = !broken;
   if constexpr (coupled) sheared = sheared && !pulled;
@@ -144,8 +147,7 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
       g_shear = select(pulled, g_shear, softening(h.damage_shear, delta));
     // the force that a failing bond hands over to friction is the one it carried before this step's damage
     h.shear = select(fails, g_shear * h.shear, h.shear);
-    if constexpr (coupled)
-      h.damage_normal = select(grows && !fails, damage, h.damage_normal);
+    if constexpr (coupled) h.damage_normal = select(grows && !fails, damage, h.damage_normal);
     h.damage_shear = select(grows, select(fails, one, damage), h.damage_shear);
     broken = broken || fails;
     const R g_after = softening(h.damage_shear, delta);

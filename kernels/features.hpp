@@ -17,10 +17,11 @@ struct Features {
   constexpr bool operator==(const Features&) const = default;
 
   /// True when a kernel built for `this` also computes the scene `other`: a superset whose surplus can be
-  /// switched off by constants (infinite strengths and limits, no dashpot, a Mohr-Coulomb line that is flat in
-  /// tension) or by spins that stay zero.
+  /// switched off by constants (infinite strengths and limits, no dashpot, a Mohr-Coulomb line that is flat
+  /// in tension) or by spins that stay zero.
   constexpr bool covers(const Features& other) const {
-    const bool coupled = criterion == Criterion::coupled, asks_coupled = other.criterion == Criterion::coupled;
+    const bool coupled = criterion == Criterion::coupled,
+               asks_coupled = other.criterion == Criterion::coupled;
     return (rotation || !other.rotation) && (contact_damping || !other.contact_damping) &&
            (plasticity || !other.plasticity) && (breakage || !other.breakage) &&
            (!other.breakage || coupled == asks_coupled);

@@ -1,7 +1,7 @@
 // The elastic-brittle law of KDEM: no plasticity, no softening; the stiffness stands on the areas of virtual
-// polyhedra, with factors alpha on k_n and beta on k_s. Santasusana, "Kratos DEM, a parallel code for concrete
-// testing simulations using the discrete element method", MSc thesis, eqs. 4.33, 4.34 (without the second pi)
-// and 5.7; MODEL section 5.
+// polyhedra, with factors alpha on k_n and beta on k_s. Santasusana, "Kratos DEM, a parallel code for
+// concrete testing simulations using the discrete element method", MSc thesis, eqs. 4.33, 4.34 (without the
+// second pi) and 5.7; MODEL section 5.
 #pragma once
 #include <array>
 
@@ -17,7 +17,8 @@ struct KdemLaw {
       LawParameter{"normal_factor", "1", 0.0, "1", "alpha of the thesis' eq. 5.7, on k_n", true},
       LawParameter{"shear_factor", "1", 0.0, "1", "beta of the thesis' eq. 5.7, on k_s"},
   };
-  static constexpr std::array standards{LawStandard{"bonds.area", "polyhedron"}, LawStandard{"bonds.alpha", "1"}};
+  static constexpr std::array standards{LawStandard{"bonds.area", "polyhedron"},
+                                        LawStandard{"bonds.alpha", "1"}};
   static constexpr std::array feature_sets{Features{.plasticity = false}};
 
   double young = 0;        ///< Pa, alpha E

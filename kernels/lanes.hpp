@@ -49,8 +49,8 @@ inline R square_root(const R& a) {
   return sqrt(a);
 }
 
-/// exp(x) for |x| of a few, to some units in the last place: Taylor's series of x/16, squared four times. No call
-/// to the maths library, so it stays in the register.
+/// exp(x) for |x| of a few, to some units in the last place: Taylor's series of x/16, squared four times. No
+/// call to the maths library, so it stays in the register.
 template <class R>
 inline R exponential(const R& x) {
   const R y = R(1.0 / 16.0) * x;

@@ -1,5 +1,5 @@
-// What several tests share: the same material for the fast code and for the reference, bodies made by hand, small
-// packings, and the whole state of a world handed over to the reference.
+// What several tests share: the same material for the fast code and for the reference, bodies made by hand,
+// small packings, and the whole state of a world handed over to the reference.
 #pragma once
 #include <algorithm>
 #include <map>
@@ -34,7 +34,9 @@ inline Material material_of(const reference::Parameters& p) {
   return m;
 }
 
-inline double shear_ratio(const reference::Parameters& p) { return p.kappa ? *p.kappa : 1 / (2 * (1 + p.nu)); }
+inline double shear_ratio(const reference::Parameters& p) {
+  return p.kappa ? *p.kappa : 1 / (2 * (1 + p.nu));
+}
 inline DempackLaw law(const reference::Parameters& p) {
   return std::get<DempackLaw>(law_of(material_of(p), shear_ratio(p)));
 }
@@ -172,8 +174,8 @@ inline Forces forces_now(World w) {  // a copy: history advances
   w.bond_pass(bond_pass_in(w), bond_history(b), 0, b.padded, to, nullptr);
   ContactTable& c = w.contacts;
   to.row_lo = to.to_lo = c.row_lo, to.row_hi = to.to_hi = c.row_hi;
-  contact_pass({w.dt, w.shear_ratio, w.friction, w.features.rotation, p.position, p.velocity,
-                p.spin, p.radius, c.row_lo, c.row_hi, c.stiffness, c.damping},
+  contact_pass({w.dt, w.shear_ratio, w.friction, w.features.rotation, p.position, p.velocity, p.spin,
+                p.radius, c.row_lo, c.row_hi, c.stiffness, c.damping},
                {c.free_length, c.shear_force}, 0, c.size, to);
   return f;
 }

@@ -133,7 +133,7 @@ class Ucs(ProgramTest):
         pictures = self.work / "pictures"
         result = subprocess.run([SOURCE / "scripts" / "plot", self.folder, "--out", pictures], capture_output=True, text=True)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(sorted(path.name for path in pictures.iterdir()), ["curves.png", "energy.png", "specimen.png"])
+        self.assertEqual(sorted(path.name for path in pictures.iterdir()), ["cracks-0.png", "curves.png", "energy.png", "events-0.csv", "specimen.png"])
 
 
 if __name__ == "__main__":

@@ -54,10 +54,11 @@ const Run& unconfined() {
   return r;
 }
 
-/// The virial theorem for a specimen at rest: sum of N d over the bonds is what the pressures on mantle and platens make
-/// of it, taken where they act (centres of spheres lie within the nominal body, at 500 spheres by a tenth of it). MODEL
-/// 10 states it as the mean bond stress p/(alpha T). How much of the mantle's pressure on the rough layers, whose lateral
-/// motion is fixed, goes through bonds lies between none and all of it.
+/// The virial theorem for a specimen at rest: sum of N d over the bonds is what the pressures on mantle and
+/// platens make of it, taken where they act (centres of spheres lie within the nominal body, at 500 spheres
+/// by a tenth of it). MODEL 10 states it as the mean bond stress p/(alpha T). How much of the mantle's
+/// pressure on the rough layers, whose lateral motion is fixed, goes through bonds lies between none and all
+/// of it.
 struct Virial {
   double bonds = 0, least = 0, most = 0;  ///< N m
 };
@@ -70,7 +71,8 @@ Virial virial(const World& w, double pressure) {
   }
   for (std::size_t k = 0; k < w.confinement.rows.size(); ++k) {
     const Row row = w.confinement.rows[k];
-    const double part = pressure * w.confinement.weight[k] * std::hypot(w.particles.position[row].x, w.particles.position[row].y);
+    const double part = pressure * w.confinement.weight[k] *
+                        std::hypot(w.particles.position[row].x, w.particles.position[row].y);
     (row < w.particles.free ? v.least : v.most) += part;
   }
   double end = 0;
@@ -83,11 +85,14 @@ Virial virial(const World& w, double pressure) {
 
 }  // namespace
 
-TEST_CASE("ucs/small: 500 spheres of concrete: peak within the stored band [this code, 1 %], E as asked for [28 GPa, 2 %]") {
+TEST_CASE(
+    "ucs/small: 500 spheres of concrete: peak within the stored band [this code, 1 %], E as asked for [28 "
+    "GPa, 2 %]") {
   const Run& r = unconfined();
   const CurveFindings& f = r.findings;
-  INFO("peak ", f.peak_stress, ", strain ", f.strain_at_peak, ", E ", f.young_modulus.value_or(0), ", nu ", f.poisson_ratio.value_or(0),
-       ", broken ", count_broken(r.world).tension, " ", count_broken(r.world).shear, ", kinetic ", f.kinetic_ratio, ", steps ", r.world.step);
+  INFO("peak ", f.peak_stress, ", strain ", f.strain_at_peak, ", E ", f.young_modulus.value_or(0), ", nu ",
+       f.poisson_ratio.value_or(0), ", broken ", count_broken(r.world).tension, " ",
+       count_broken(r.world).shear, ", kinetic ", f.kinetic_ratio, ", steps ", r.world.step);
   CHECK(f.peak_stress == doctest::Approx(38.58e6).epsilon(0.01));
   CHECK(f.young_modulus.value() == doctest::Approx(28e9).epsilon(0.02));
   CHECK(f.peak_reached);
@@ -100,7 +105,9 @@ TEST_CASE("ucs/small: 500 spheres of concrete: peak within the stored band [this
   CHECK(count_broken(r.world).tension > count_broken(r.world).shear);  // splitting
 }
 
-TEST_CASE("triaxial/small: 500 spheres at 9 MPa: stage 1 settles, the pressure is held, the peak lies above the UCS [MODEL 10]") {
+TEST_CASE(
+    "triaxial/small: 500 spheres at 9 MPa: stage 1 settles, the pressure is held, the peak lies above the "
+    "UCS [MODEL 10]") {
   double kinetic = 0;
   Virial balance;
   std::array<double, 2> platens{};
@@ -110,8 +117,10 @@ TEST_CASE("triaxial/small: 500 spheres at 9 MPa: stage 1 settles, the pressure i
     platens = scene::platen_stress(w.platens);
   });
   const CurveFindings& f = r.findings;
-  INFO("peak ", f.peak_stress, ", strain ", f.strain_at_peak, ", E ", f.young_modulus.value_or(0), ", virial ", balance.bonds, " between ", balance.least, " and ", balance.most,
-       ", kinetic ", kinetic, ", platens ", platens[0], " ", platens[1], ", stage 1 steps ", r.result.stage1_steps, ", steps ", r.world.step);
+  INFO("peak ", f.peak_stress, ", strain ", f.strain_at_peak, ", E ", f.young_modulus.value_or(0),
+       ", virial ", balance.bonds, " between ", balance.least, " and ", balance.most, ", kinetic ", kinetic,
+       ", platens ", platens[0], " ", platens[1], ", stage 1 steps ", r.result.stage1_steps, ", steps ",
+       r.world.step);
   CHECK(r.result.warnings.empty());  // stage 1 came to rest by itself
   CHECK(r.result.stage1_steps > 1000);
   CHECK(kinetic < 1e-3);
@@ -119,7 +128,8 @@ TEST_CASE("triaxial/small: 500 spheres at 9 MPa: stage 1 settles, the pressure i
   // the layers also carry some of what presses on the free skin beside them
   CHECK(balance.bonds > 0.95 * balance.least);
   CHECK(balance.bonds < balance.most);
-  CHECK(std::ranges::all_of(r.result.record.rows, [](const CurveRow& row) { return row.confining_stress_Pa == 9e6; }));
+  CHECK(std::ranges::all_of(r.result.record.rows,
+                            [](const CurveRow& row) { return row.confining_stress_Pa == 9e6; }));
   for (const CurveRow& row : r.result.record.rows)
     CHECK(row.volumetric_strain == doctest::Approx(row.axial_strain + 2 * row.radial_strain).epsilon(1e-9));
   CHECK(f.peak_stress > 9e6 + 1.1 * unconfined().findings.peak_stress);

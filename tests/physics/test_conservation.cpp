@@ -16,7 +16,9 @@ constexpr double pi = std::numbers::pi;
 World world_of(const std::vector<Ball>& balls, const ref::Parameters& p, WorldOptions o) {
   return make_world(scene::free_body(balls, p.beta, o.features), scene::material_of(p), scene::factor(p), o);
 }
-World world_of(const std::vector<Ball>& balls, const ref::Parameters& p) { return world_of(balls, p, scene::options(p)); }
+World world_of(const std::vector<Ball>& balls, const ref::Parameters& p) {
+  return world_of(balls, p, scene::options(p));
+}
 
 /// A cluster of 36 that breaks up: the scene that the reference conserves momenta in.
 std::vector<Ball> colliding_cluster() {
@@ -27,7 +29,8 @@ std::vector<Ball> colliding_cluster() {
   for (int x = 0; x < 4; ++x)
     for (int y = 0; y < 3; ++y)
       for (int z = 0; z < 3; ++z) {
-        Ball b{40 - balls.size(), 0.05 + 0.005 * in(random), Vec3{0.1 * x, 0.1 * y, 0.1 * z} + noise(0.004), x < 3 ? 1 : 2};
+        Ball b{40 - balls.size(), 0.05 + 0.005 * in(random), Vec3{0.1 * x, 0.1 * y, 0.1 * z} + noise(0.004),
+               x < 3 ? 1 : 2};
         b.v = noise(6) + (x < 2 ? Vec3{4, 0, 0} : Vec3{-4, 0, 0});
         b.w = noise(60);
         balls.push_back(b);
@@ -50,7 +53,8 @@ std::pair<Vec3, Vec3> momenta(const World& w) {
   const ParticleTable& p = w.particles;
   for (std::size_t k = 0; k < p.size; ++k) {
     P += p.mass[k] * p.velocity[k];
-    L += p.mass[k] * cross(p.position[k], p.velocity[k]) + inertia(sphere_inertia_factor, p.mass[k], p.radius[k]) * p.spin[k];
+    L += p.mass[k] * cross(p.position[k], p.velocity[k]) +
+         inertia(sphere_inertia_factor, p.mass[k], p.radius[k]) * p.spin[k];
   }
   return {P, L};
 }
@@ -74,10 +78,15 @@ ref::Parameters elastic_chain() {
 
 }  // namespace
 
-TEST_CASE("conservation: momentum and angular momentum of a breaking cluster [MODEL 4, round-off: 1e-13 of sum m|v|]") {
-  for (const auto criterion : {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb})
-    for (const auto& [scatter, threads] : {std::pair{ScatterKind::private_sums, 1}, {ScatterKind::private_sums, 2},
-                                           {ScatterKind::atomic, 2}, {ScatterKind::gather, 2}}) {
+TEST_CASE(
+    "conservation: momentum and angular momentum of a breaking cluster [MODEL 4, round-off: 1e-13 of sum "
+    "m|v|]") {
+  for (const auto criterion :
+       {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb})
+    for (const auto& [scatter, threads] : {std::pair{ScatterKind::private_sums, 1},
+                                           {ScatterKind::private_sums, 2},
+                                           {ScatterKind::atomic, 2},
+                                           {ScatterKind::gather, 2}}) {
       ref::Parameters p = brittle();
       p.criterion = criterion;
       WorldOptions o = scene::options(p);
@@ -87,12 +96,14 @@ TEST_CASE("conservation: momentum and angular momentum of a breaking cluster [MO
       REQUIRE(w.dt > 2e-6);
       w.dt = 2e-6;
       double size = 0;
-      for (std::size_t k = 0; k < w.particles.size; ++k) size += w.particles.mass[k] * norm(w.particles.velocity[k]);
+      for (std::size_t k = 0; k < w.particles.size; ++k)
+        size += w.particles.mass[k] * norm(w.particles.velocity[k]);
       const auto [P0, L0] = momenta(w);
       bool touched = false;
       for (int k = 0; k < 1500; ++k) {
         advance(w);
-        touched = touched || std::ranges::any_of(w.contacts.shear_force, [](const Vec3& f) { return norm(f) > 0; });
+        touched =
+            touched || std::ranges::any_of(w.contacts.shear_force, [](const Vec3& f) { return norm(f) > 0; });
       }
       const auto [P, L] = momenta(w);
       INFO("criterion ", int(criterion), ", scatter ", int(scatter), ", threads ", threads);
@@ -105,8 +116,10 @@ TEST_CASE("conservation: momentum and angular momentum of a breaking cluster [MO
     }
 }
 
-TEST_CASE("conservation: a cluster turned rigidly by 1 rad feels no force, to first order in the step [MODEL 4]") {
-  // velocities at n - 1/2 on the normal at n make slips of d dt^2/2 (w.n) w_t a step: forces in proportion to dt
+TEST_CASE(
+    "conservation: a cluster turned rigidly by 1 rad feels no force, to first order in the step [MODEL 4]") {
+  // velocities at n - 1/2 on the normal at n make slips of d dt^2/2 (w.n) w_t a step: forces in proportion to
+  // dt
   ref::Parameters p = brittle();
   p.contact_damping = false;
   const auto turned_force = [&](int steps) {
@@ -145,13 +158,15 @@ TEST_CASE("conservation: a cluster turned rigidly by 1 rad feels no force, to fi
   CHECK(coarse / fine == doctest::Approx(2).epsilon(0.05));
 }
 
-TEST_CASE("conservation: a free bonded pair vibrates at sqrt(2k/m)/(2 pi), its energy stays [closed form, 1e-9]") {
+TEST_CASE(
+    "conservation: a free bonded pair vibrates at sqrt(2k/m)/(2 pi), its energy stays [closed form, 1e-9]") {
   // central differences: x(n) = A cos(n theta), sin(theta/2) = omega dt/2, exactly
   const ref::Parameters p = elastic_chain();
   World w = world_of(chain(2), p);
   const double omega = std::sqrt(2 * w.bonds.stiffness[0] / w.particles.mass[0]), A = 1e-6;
   const double theta = 2 * std::asin(omega * w.dt / 2);
-  CHECK(std::sqrt(2 * p.E * pi * 1e-4 / 0.02 / (2500 * 4.0 / 3 * pi * 1e-6)) == doctest::Approx(omega).epsilon(1e-12));
+  CHECK(std::sqrt(2 * p.E * pi * 1e-4 / 0.02 / (2500 * 4.0 / 3 * pi * 1e-6)) ==
+        doctest::Approx(omega).epsilon(1e-12));
   w.particles.position[1].z += A, w.particles.position[0].z -= A;
   // v(-1/2) such that x(-1) = A cos(theta)
   w.particles.velocity[1].z = A * (1 - std::cos(theta)) / w.dt;
@@ -162,7 +177,8 @@ TEST_CASE("conservation: a free bonded pair vibrates at sqrt(2k/m)/(2 pi), its e
     const Vec3 before = w.particles.velocity[1];
     const double stored = stored_energy(w);
     advance(w);
-    worst = std::max(worst, std::abs(w.particles.position[1].z - w.particles.reference_position[1].z - A * std::cos(n * theta)));
+    worst = std::max(worst, std::abs(w.particles.position[1].z - w.particles.reference_position[1].z -
+                                     A * std::cos(n * theta)));
     // K with the product of the two velocities around the step (MODEL 9)
     const double energy = stored + w.particles.mass[1] * before.z * w.particles.velocity[1].z;
     most = std::max(most, energy), least = std::min(least, energy);
@@ -174,12 +190,15 @@ TEST_CASE("conservation: a free bonded pair vibrates at sqrt(2k/m)/(2 pi), its e
   CHECK(most == doctest::Approx(0.5 * w.bonds.stiffness[0] * 4 * A * A * (1 - x * x)).epsilon(1e-6));
 }
 
-TEST_CASE("conservation: standing waves of a chain have omega = 2 sqrt(k/m) sin(q pi/(2 n)), c = sqrt(1.5 E/rho) [1e-6 of the amplitude]") {
+TEST_CASE(
+    "conservation: standing waves of a chain have omega = 2 sqrt(k/m) sin(q pi/(2 n)), c = sqrt(1.5 E/rho) "
+    "[1e-6 of the amplitude]") {
   const ref::Parameters p = elastic_chain();
   constexpr std::size_t n = 50;
   for (const int q : {1, 7, 40}) {
     World w = world_of(chain(n), p);
-    const double omega = 2 * std::sqrt(w.bonds.stiffness[0] / w.particles.mass[0]) * std::sin(q * pi / (2.0 * n));
+    const double omega =
+        2 * std::sqrt(w.bonds.stiffness[0] / w.particles.mass[0]) * std::sin(q * pi / (2.0 * n));
     const double theta = 2 * std::asin(omega * w.dt / 2), A = 1e-6;
     const auto shape = [&](std::size_t k) { return std::cos(q * pi * (double(k) + 0.5) / n); };
     for (std::size_t k = 0; k < n; ++k) {
@@ -195,11 +214,13 @@ TEST_CASE("conservation: standing waves of a chain have omega = 2 sqrt(k/m) sin(
     }
     CHECK(worst < 1e-6 * A);
     // long waves: omega over wave number
-    if (q == 1) CHECK(omega / (q * pi / (n * 0.02)) == doctest::Approx(std::sqrt(1.5 * p.E / p.density)).epsilon(3e-4));
+    if (q == 1)
+      CHECK(omega / (q * pi / (n * 0.02)) == doctest::Approx(std::sqrt(1.5 * p.E / p.density)).epsilon(3e-4));
   }
 }
 
-TEST_CASE("conservation: a bar of 11 bonded spheres has the stiffness E A/L [verification_formulas, rel 1e-9]") {
+TEST_CASE(
+    "conservation: a bar of 11 bonded spheres has the stiffness E A/L [verification_formulas, rel 1e-9]") {
   ref::Parameters p = elastic_chain();
   p.E = 1e9;
   p.xi = 0.9;
@@ -223,10 +244,13 @@ TEST_CASE("conservation: a bar of 11 bonded spheres has the stiffness E A/L [ver
   for (const double stress : scene::platen_stress(w.platens))
     CHECK(stress * w.platens.section / (A * strain) == doctest::Approx(1e9).epsilon(1e-9));
   for (std::size_t k = 0; k < 9; ++k)  // uniform
-    CHECK(std::abs(w.particles.position[k].z - (1 - strain) * a.particles.position[k].z) < 1e-8 * strain * 0.1);
+    CHECK(std::abs(w.particles.position[k].z - (1 - strain) * a.particles.position[k].z) <
+          1e-8 * strain * 0.1);
 }
 
-TEST_CASE("conservation: global damping takes its share of every force on what moves, and nothing where v is 0 [MODEL 7, exact]") {
+TEST_CASE(
+    "conservation: global damping takes its share of every force on what moves, and nothing where v is 0 "
+    "[MODEL 7, exact]") {
   ref::Parameters p = elastic_chain();
   World undamped = world_of(chain(2), p);
   p.damping_translation = p.damping_rotation = 0.3;

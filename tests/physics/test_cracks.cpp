@@ -49,7 +49,7 @@ ref::Parameters brittle() {
 }  // namespace
 
 TEST_CASE(
-    "cracks: a crushed specimen: every broken bond is in the record once, at its step, in order of time "
+    "cracks: a crushed specimen: every broken bond is in the record once - at its step - in order of time "
     "[equal]") {
   for (const Features& asked :
        {Features{}, Features{.criterion = Criterion::coupled}, Features{.plasticity = false}})
@@ -89,7 +89,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "cracks: gather gives the same record for 1 and 2 and 3 threads, a switched off record is empty [equal "
+    "cracks: gather gives the same record for 1 and 2 and 3 threads - a switched off record is empty [equal "
     "bits]") {
   const auto run = [](int threads, bool record) {
     World w = crushed(ScatterKind::gather, threads, {}, record);
@@ -115,7 +115,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "cracks: a pair torn apart: force sigma_t A to one step, energy F^2/(2 k_n), place, direction [closed "
+    "cracks: a pair torn apart: force sigma_t A to one step - energy F^2/(2 k_n) - place - direction [closed "
     "form]") {
   const ref::Parameters p = brittle();
   World w = pulled_pair(p, {0, 0, speed});
@@ -141,7 +141,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "cracks: a pair sheared apart, in the open: force tau_f A to one step, energy F^2/(2 k_s) [closed "
+    "cracks: a pair sheared apart - in the open: force tau_f A to one step - energy F^2/(2 k_s) [closed "
     "form]") {
   ref::Parameters p = brittle();
   p.tau_f = 2e6;  // breaks while the pair has hardly turned

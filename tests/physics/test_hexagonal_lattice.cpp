@@ -1,5 +1,6 @@
-// A close-packed lattice of discs is an isotropic plane whose E and nu follow exactly from k_n and k_s: Tavarez and
-// Plesha, Int. J. Numer. Meth. Engng 70 (2007) 379-404, as in Santasusana's thesis, eqs. 5.5 and 5.6.
+// A close-packed lattice of discs is an isotropic plane whose E and nu follow exactly from k_n and k_s:
+// Tavarez and Plesha, Int. J. Numer. Meth. Engng 70 (2007) 379-404, as in Santasusana's thesis, eqs. 5.5
+// and 5.6.
 #include <doctest/doctest.h>
 
 #include "core/stress.hpp"
@@ -17,7 +18,8 @@ std::vector<scene::Ball> lattice(int half) {
   Gid id = 0;
   for (int row = -half; row <= half; ++row)
     for (int k = -half; k <= half; ++k)
-      balls.push_back({++id, radius, {radius * (2 * k + std::abs(row % 2)), 0, std::sqrt(3.0) * radius * row}});
+      balls.push_back(
+          {++id, radius, {radius * (2 * k + std::abs(row % 2)), 0, std::sqrt(3.0) * radius * row}});
   return balls;
 }
 

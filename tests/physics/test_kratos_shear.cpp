@@ -10,8 +10,8 @@ using namespace breccia;
 
 namespace {
 
-/// Two spheres of radius 1 m: the lower at rest, the upper led around it on a circle at 20 pi 1/s without spinning, so
-/// that the bond is sheared and neither stretched nor pressed.
+/// Two spheres of radius 1 m: the lower at rest, the upper led around it on a circle at 20 pi 1/s without
+/// spinning, so that the bond is sheared and neither stretched nor pressed.
 struct Pair24 {
   reference::Parameters p;
   World w;
@@ -25,7 +25,8 @@ struct Pair24 {
     p.delta_s = 1;
     p.plasticity = p.contact_damping = false;
     p.xi = 0;
-    Assembly a = scene::free_body({{140, 1, {0, 0, -1}}, {141, 1, {0, 0, 1}}}, p.beta, scene::options(p).features);
+    Assembly a =
+        scene::free_body({{140, 1, {0, 0, -1}}, {141, 1, {0, 0, 1}}}, p.beta, scene::options(p).features);
     a.particles.free = 0, a.first_top = 1;  // both held
     w = make_world(a, scene::material_of(p), scene::factor(p), scene::options(p));
     w.dt = 1e-7;
@@ -42,7 +43,9 @@ struct Pair24 {
 
 }  // namespace
 
-TEST_CASE("kratos: two spheres in shear, to the peak, softening, Coulomb [Kratos DEM benchmark 24, 1e-4 of the strength]") {
+TEST_CASE(
+    "kratos: two spheres in shear, to the peak, softening, Coulomb [Kratos DEM benchmark 24, 1e-4 of the "
+    "strength]") {
   const std::filesystem::path file =
       std::filesystem::path(BRECCIA_SOURCE_DIR "/../shared/reference") / "reference_graph_benchmark24.dat";
   if (!std::filesystem::exists(file)) {
@@ -51,7 +54,8 @@ TEST_CASE("kratos: two spheres in shear, to the peak, softening, Coulomb [Kratos
   }
   std::vector<double> times, theirs;
   std::ifstream in(file);
-  for (double time = 0, x = 0, y = 0; in >> time >> x >> y;) times.push_back(time), theirs.push_back(std::hypot(x, y));
+  for (double time = 0, x = 0, y = 0; in >> time >> x >> y;)
+    times.push_back(time), theirs.push_back(std::hypot(x, y));
   REQUIRE(theirs.size() > 500);
 
   Pair24 pair;

@@ -8,7 +8,9 @@
 
 using namespace breccia;
 
-TEST_CASE("kratos: two spheres pulled apart, softening to failure [Kratos DEM benchmark 22, 1e-5 of the strength]") {
+TEST_CASE(
+    "kratos: two spheres pulled apart, softening to failure [Kratos DEM benchmark 22, 1e-5 of the "
+    "strength]") {
   const std::filesystem::path file =
       std::filesystem::path(BRECCIA_SOURCE_DIR "/../shared/reference") / "reference_graph_benchmark22.dat";
   if (!std::filesystem::exists(file)) {
@@ -22,7 +24,8 @@ TEST_CASE("kratos: two spheres pulled apart, softening to failure [Kratos DEM be
   p.delta_n = 0.8;
   p.plasticity = p.contact_damping = false;
   p.xi = 0;
-  Assembly a = scene::free_body({{140, 1, {0, 0, -1}}, {141, 1, {0, 0, 1}}}, p.beta, scene::options(p).features);
+  Assembly a =
+      scene::free_body({{140, 1, {0, 0, -1}}, {141, 1, {0, 0, 1}}}, p.beta, scene::options(p).features);
   a.particles.free = 0, a.first_top = 1;  // both held, the upper one is pulled
   World w = make_world(a, scene::material_of(p), scene::factor(p), scene::options(p));
   w.dt = 1e-5;

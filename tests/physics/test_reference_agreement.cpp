@@ -150,7 +150,7 @@ TEST_CASE("reference: 200 steps on, each bond of the fast code is intact, broken
   CHECK(damage < 1e-8);
 }
 
-TEST_CASE("reference: without rotation nothing spins, also in a kernel that could, and forces are the reference's [rel 1e-10]") {
+TEST_CASE("reference: without rotation nothing spins - also in a kernel that could and forces are the reference's [rel 1e-10]") {
   for (const auto criterion : {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb}) {
     ref::Parameters p;
     p.criterion = criterion;

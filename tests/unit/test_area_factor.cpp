@@ -40,7 +40,8 @@ ElasticResponse measure(const AreaFactor& f) {
 
 }  // namespace
 
-TEST_CASE("area factor: affine value alpha T (2 + 3 kappa)/(4 + kappa) = 1, T summed here [MODEL 2, rel 1e-12]") {
+TEST_CASE(
+    "area factor: affine value alpha T (2 + 3 kappa)/(4 + kappa) = 1, T summed here [MODEL 2, rel 1e-12]") {
   const Assembly& a = packing();
   double sum = 0;
   for (std::size_t k = 0; k < a.bonds.size; ++k) {
@@ -59,10 +60,13 @@ TEST_CASE("area factor: affine value alpha T (2 + 3 kappa)/(4 + kappa) = 1, T su
   CHECK(measure(f).young_modulus == doctest::Approx(28e9).epsilon(0.15));
 }
 
-TEST_CASE("area factor: matched has the E and nu asked for, automatic the E, as a second probe finds [E 1 %, nu 0.25 %]") {
+TEST_CASE(
+    "area factor: matched has the E and nu asked for, automatic the E, as a second probe finds [E 1 %, nu "
+    "0.25 %]") {
   int most = 0;
   for (const double nu : {0.05, 0.1, 0.2}) {
-    const AreaFactor f = find_area_factor(packing(), request(AlphaRule::automatic, Elasticity::matched, nu), 2);
+    const AreaFactor f =
+        find_area_factor(packing(), request(AlphaRule::automatic, Elasticity::matched, nu), 2);
     const ElasticResponse r = measure(f);
     CHECK(r.young_modulus == doctest::Approx(28e9).epsilon(0.01));
     CHECK(r.poisson_ratio == doctest::Approx(nu).epsilon(0.0025));  // the search stops at 0.2 %
@@ -80,7 +84,8 @@ TEST_CASE("area factor: porosity gives 40 P/N_c, a number is taken as it is [MOD
   const Assembly& a = packing();
   double solid = 0;
   for (const double r : a.particles.radius) solid += 4.0 / 3.0 * std::numbers::pi * r * r * r;
-  const double P = 1 - solid / (std::numbers::pi * 0.025 * 0.025 * 0.10), N_c = 2.0 * double(a.bonds.size) / 1000;
+  const double P = 1 - solid / (std::numbers::pi * 0.025 * 0.025 * 0.10),
+               N_c = 2.0 * double(a.bonds.size) / 1000;
   CHECK(P == doctest::Approx(0.26).epsilon(1e-6));
   const AreaFactor f = find_area_factor(a, request(AlphaRule::porosity), 1);
   CHECK(f.alpha == doctest::Approx(40 * P / N_c).epsilon(1e-12));
@@ -88,7 +93,9 @@ TEST_CASE("area factor: porosity gives 40 P/N_c, a number is taken as it is [MOD
   CHECK(find_area_factor(a, request(AlphaRule::number), 1).alpha == 0.79);
 }
 
-TEST_CASE("area factor: the probe of a column of spheres is E A/(section) of its bonds, threads give the same bits [rel 1e-7]") {
+TEST_CASE(
+    "area factor: the probe of a column of spheres is E A/(section) of its bonds, threads give the same bits "
+    "[rel 1e-7]") {
   // a straight column: all bonds equal, so E_probe = k d0/section, and no lateral strain
   std::vector<scene::Ball> balls;
   for (int k = 0; k < 21; ++k) balls.push_back({Gid(k + 1), 0.0025, {1e-4, 0, -0.05 + 0.005 * k}});
@@ -102,7 +109,8 @@ TEST_CASE("area factor: the probe of a column of spheres is E A/(section) of its
   for (Row k = 0; k < 19; ++k) a.skin.push_back(k);
   const double want = 28e9 * std::numbers::pi * 0.0025 * 0.0025 / (std::numbers::pi * 0.025 * 0.025);
   CHECK(probe(a, stiffness(a), 0.4, true, 1).young_modulus == doctest::Approx(want).epsilon(1e-6));
-  const ElasticResponse one = probe(packing(), stiffness(packing()), 0.4, true, 1), two = probe(packing(), stiffness(packing()), 0.4, true, 2);
+  const ElasticResponse one = probe(packing(), stiffness(packing()), 0.4, true, 1),
+                        two = probe(packing(), stiffness(packing()), 0.4, true, 2);
   CHECK(one.young_modulus == two.young_modulus);
   CHECK(one.poisson_ratio == two.poisson_ratio);
 }

@@ -15,7 +15,7 @@ double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, 
 }  // namespace
 
 TEST_CASE(
-    "strength area: stiffness keeps its area, strengths have theirs without alpha, faceless pairs are "
+    "strength area: stiffness keeps its area - strengths have theirs without alpha - faceless pairs are "
     "counted [exact]") {
   const Specimen& specimen = scene::small_packing(500);
   const Assembly plain = assemble(specimen, scene::small_cylinder(), {}, Features{}, 1);
@@ -60,7 +60,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "strength area: a bond breaks at sigma_t and tau_f of its strength area, at the stiffness of the other "
+    "strength area: a bond breaks at sigma_t and tau_f of its strength area - at the stiffness of the other "
     "[1e-3]") {
   for (const double ratio : {0.5, 1.0, 3.0})
     for (const Vec3 along : {Vec3{0, 0, 1}, Vec3{1, 0, 0}}) {
@@ -95,7 +95,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "disc: standing up is a rotation that puts the load axis along z and the disc's along y, for each pair "
+    "disc: standing up is a rotation that puts the load axis along z and the disc's along y - for each pair "
     "[exact]") {
   for (const char axis : {'x', 'y', 'z'})
     for (const char load : {'x', 'y', 'z', '-'}) {
@@ -122,7 +122,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "grip: strips hold what reaches within 0.15 R of the load's line and 2.5 radii of the mantle, no more "
+    "grip: strips hold what reaches within 0.15 R of the load's line and 2.5 radii of the mantle - no more "
     "[equal]") {
   Body disc{Shape::disc, 0.05, 0, 0.02};
   PackRequest r;

@@ -528,7 +528,8 @@ TEST_CASE("section area: polyhedron gives the section of sphere packings [thesis
     return;
   }
   const Body body{Shape::cylinder, 0.150, 0, 0.300};
-  const Shares s = report("concrete mesh", assemble(*concrete_mesh(), body, {0.10, {}, AreaRule::minimum, {}}, Features{}, 2));
+  const Shares s = report("concrete mesh",
+                          assemble(*concrete_mesh(), body, {0.10, {}, AreaRule::minimum, {}}, Features{}, 2));
   CHECK(s.polyhedron == Approx(1).epsilon(0.015));
   report("concrete mesh", assemble(*concrete_mesh(), body, {0.15, {}, AreaRule::minimum, {}}, Features{}, 2));
 }

@@ -1,5 +1,5 @@
-// One pass over the bonds, for every feature set and instruction set that is built: against the reference's pair
-// update, and without a difference of one bit where a difference would have no meaning.
+// One pass over the bonds, for every feature set and instruction set that is built: against the reference's
+// pair update, and without a difference of one bit where a difference would have no meaning.
 #include <doctest/doctest.h>
 
 #include <numeric>
@@ -15,7 +15,8 @@ namespace {
 
 std::vector<InstructionSet> sets_of_this_machine() {
   std::vector<InstructionSet> sets;
-  for (int k = 0; k <= static_cast<int>(best_instruction_set()); ++k) sets.push_back(static_cast<InstructionSet>(k));
+  for (int k = 0; k <= static_cast<int>(best_instruction_set()); ++k)
+    sets.push_back(static_cast<InstructionSet>(k));
   return sets;
 }
 
@@ -83,14 +84,16 @@ Bundle random_bundle(const Kernel& kernel, std::uint64_t seed) {
     b.c_n = 0.02 * b.k_n * s.dt * unit(random) * 50;
     b.delta_n = p.delta_n, b.delta_s = p.delta_s;
     const double kind = unit(random), u_l = p.sigma_t * b.area / b.k_n;
-    if (kind < 0.6) b.d0 = b.strain_length = distance - (2.5 * in(random) - 0.5) * u_l;
+    if (kind < 0.6) b.d0 = b.strain_length = distance - (2.5 * in(random)-0.5) * u_l;
     b.k_n = p.E * b.area / b.strain_length, b.k_s = b.k_n / 2.4;
     b.F_s = vector(1.1 * p.tau_f * b.area);
     if (features.plasticity && unit(random) < 0.4) b.u_p = -2 * u_l * unit(random);
     if (features.breakage) {
       const double fate = unit(random);
-      if (fate < 0.2) b.D_n = 1, b.broken = ref::Broken::tension;
-      else if (fate < 0.4) b.D_s = 1, b.broken = ref::Broken::shear;
+      if (fate < 0.2)
+        b.D_n = 1, b.broken = ref::Broken::tension;
+      else if (fate < 0.4)
+        b.D_s = 1, b.broken = ref::Broken::shear;
       else if (fate < 0.7) {
         b.D_n = 0.5 * unit(random);
         b.D_s = p.criterion == ref::Criterion::coupled ? b.D_n : 0.5 * unit(random);
@@ -121,9 +124,10 @@ Columns pass(Bundle& s, const Features& features, InstructionSet set) {
   to.mode = ScatterMode::columns;
   to.bond_force = c.force, to.bond_turn = c.turn;
   const BondLaw law = scene::law(s.parameters);
-  bond_pass_for(law, features, set)({s.dt, constants_of(law), p.position, p.velocity, p.spin, p.radius, b.row_lo, b.row_hi,
-                                     b.rest_length, b.area, b.area, b.stiffness, b.damping},
-                                    scene::bond_history(b), 0, b.padded, to, nullptr);
+  bond_pass_for(law, features, set)(
+      {s.dt, constants_of(law), p.position, p.velocity, p.spin, p.radius, b.row_lo, b.row_hi, b.rest_length,
+       b.area, b.area, b.stiffness, b.damping},
+      scene::bond_history(b), 0, b.padded, to, nullptr);
   return c;
 }
 
@@ -137,14 +141,18 @@ void swap_ends(Bundle& s) {
 }
 
 bool same_history(const BondTable& a, std::size_t k, const BondTable& b, std::size_t l, double sign) {
-  return a.shear_x[k] == sign * b.shear_x[l] && a.shear_y[k] == sign * b.shear_y[l] && a.shear_z[k] == sign * b.shear_z[l] &&
+  return a.shear_x[k] == sign * b.shear_x[l] && a.shear_y[k] == sign * b.shear_y[l] &&
+         a.shear_z[k] == sign * b.shear_z[l] &&
          (a.plastic_stretch.empty() || a.plastic_stretch[k] == b.plastic_stretch[l]) &&
-         (a.damage_normal.empty() || (a.damage_normal[k] == b.damage_normal[l] && a.damage_shear[k] == b.damage_shear[l]));
+         (a.damage_normal.empty() ||
+          (a.damage_normal[k] == b.damage_normal[l] && a.damage_shear[k] == b.damage_shear[l]));
 }
 
 }  // namespace
 
-TEST_CASE("bond pass: all feature sets and instruction sets as the reference's pair update [random pairs, rel 1e-11]") {
+TEST_CASE(
+    "bond pass: all feature sets and instruction sets as the reference's pair update [random pairs, rel "
+    "1e-11]") {
   for (const Kernel& kernel : kernels())
     for (const InstructionSet set : sets_of_this_machine()) {
       const Features& features = kernel.features;
@@ -158,7 +166,8 @@ TEST_CASE("bond pass: all feature sets and instruction sets as the reference's p
           ref::Bond& b = s.reference[k];
           const auto end = [&](std::size_t row) {
             ref::Particle a;
-            a.radius = s.particles.radius[row], a.x = s.particles.position[row], a.v = s.particles.velocity[row];
+            a.radius = s.particles.radius[row], a.x = s.particles.position[row],
+            a.v = s.particles.velocity[row];
             if (features.rotation) a.w = s.particles.spin[row];
             return a;
           };
@@ -174,16 +183,19 @@ TEST_CASE("bond pass: all feature sets and instruction sets as the reference's p
             worse(turn, norm(i.radius * got.turn[k] - i.torque) / (scale * arms * i.radius));
             worse(turn, norm(j.radius * got.turn[k] - j.torque) / (scale * arms * j.radius));
           }
-          worse(history, norm(Vec3{s.bonds.shear_x[k], s.bonds.shear_y[k], s.bonds.shear_z[k]} - b.F_s) / scale);
+          worse(history,
+                norm(Vec3{s.bonds.shear_x[k], s.bonds.shear_y[k], s.bonds.shear_z[k]} - b.F_s) / scale);
           if (features.plasticity) worse(history, std::abs(s.bonds.plastic_stretch[k] - b.u_p) / b.d0);
           if (features.breakage)
-            worse(history, std::max(std::abs(s.bonds.damage_normal[k] - b.D_n), std::abs(s.bonds.damage_shear[k] - b.D_s)));
+            worse(history, std::max(std::abs(s.bonds.damage_normal[k] - b.D_n),
+                                    std::abs(s.bonds.damage_shear[k] - b.D_s)));
         }
-        for (std::size_t k = 0; k < s.particles.size; ++k) s.particles.position[k] += s.dt * s.particles.velocity[k];
+        for (std::size_t k = 0; k < s.particles.size; ++k)
+          s.particles.position[k] += s.dt * s.particles.velocity[k];
       }
       for (const ref::Bond& b : s.reference) newly_broken += b.broken != ref::Broken::no;
-      INFO(name_of(set), ", rotation ", features.rotation, ", plasticity ", features.plasticity, ", breakage ",
-           features.breakage, ", criterion ", int(kernel.criterion));
+      INFO(name_of(set), ", rotation ", features.rotation, ", plasticity ", features.plasticity,
+           ", breakage ", features.breakage, ", criterion ", int(kernel.criterion));
       CHECK(force < 1e-11);
       CHECK(turn < 1e-11);
       CHECK(history < 1e-11);
@@ -191,7 +203,9 @@ TEST_CASE("bond pass: all feature sets and instruction sets as the reference's p
     }
 }
 
-TEST_CASE("bond pass: swapping the two ends of the input changes no bit of force, torque and history [STYLE 9, equal]") {
+TEST_CASE(
+    "bond pass: swapping the two ends of the input changes no bit of force, torque and history [STYLE 9, "
+    "equal]") {
   for (const Kernel& kernel : kernels())
     for (const InstructionSet set : sets_of_this_machine()) {
       const Features& features = kernel.features;
@@ -226,7 +240,8 @@ TEST_CASE("bond pass: a bond's result does not depend on its place and neighbour
       const Columns f = pass(a, features, set), g = pass(b, features, set);
       std::size_t different = 0;
       for (std::size_t k = 0; k < from.size(); ++k)
-        different += !(g.force[k] == f.force[from[k]]) || (features.rotation && !(g.turn[k] == f.turn[from[k]])) ||
+        different += !(g.force[k] == f.force[from[k]]) ||
+                     (features.rotation && !(g.turn[k] == f.turn[from[k]])) ||
                      !same_history(b.bonds, k, a.bonds, from[k], 1);
       INFO(name_of(set), ", criterion ", int(kernel.criterion));
       CHECK(different == 0);
@@ -242,7 +257,8 @@ TEST_CASE("bond pass: a scene runs its nearest superset, with the same spins [DE
   });
   const BondLaw dempack = DempackLaw{}, kdem = KdemLaw{};
   const Features elastic{.plasticity = false, .breakage = false};
-  CHECK(built_features(dempack, {.contact_damping = false, .plasticity = false, .breakage = false}) == elastic);
+  CHECK(built_features(dempack, {.contact_damping = false, .plasticity = false, .breakage = false}) ==
+        elastic);
   CHECK(built_features(dempack, {.rotation = false, .plasticity = false, .breakage = false}) == elastic);
   CHECK(built_features(dempack, {.rotation = false, .breakage = false}) == Features{.rotation = false});
   CHECK(built_features(dempack, {.criterion = Criterion::mohr_coulomb}) == Features{});
@@ -260,7 +276,8 @@ TEST_CASE("bond pass: what a scene leaves out does not happen in the superset th
   for (const Features asked : {Features{.rotation = false, .plasticity = false, .breakage = false},
                                Features{.rotation = false, .breakage = false}, Features{.breakage = false},
                                Features{.rotation = false, .plasticity = false}}) {
-    const Assembly a = assemble(scene::small_packing(150), scene::small_cylinder(), {}, built_features(scene::law(p), asked), 1);
+    const Assembly a = assemble(scene::small_packing(150), scene::small_cylinder(), {},
+                                built_features(scene::law(p), asked), 1);
     WorldOptions o = scene::options(p);
     o.features = asked;
     World w = make_world(a, scene::material_of(p), scene::factor(p), o);

@@ -8,11 +8,15 @@ using namespace breccia;
 
 namespace {
 
-Assembly packed(std::size_t spheres) { return assemble(scene::small_packing(spheres), scene::small_cylinder(), {}, Features{}, 1); }
+Assembly packed(std::size_t spheres) {
+  return assemble(scene::small_packing(spheres), scene::small_cylinder(), {}, Features{}, 1);
+}
 
 }  // namespace
 
-TEST_CASE("boundary: the weights of the skin add up to the nominal mantle, in the ratio of r^2 [MODEL 10, rel 1e-13]") {
+TEST_CASE(
+    "boundary: the weights of the skin add up to the nominal mantle, in the ratio of r^2 [MODEL 10, rel "
+    "1e-13]") {
   const Assembly a = packed(400);
   const Confinement c = make_confinement(a, SkinWeights::radius, false);
   double sum = 0;
@@ -22,7 +26,8 @@ TEST_CASE("boundary: the weights of the skin add up to the nominal mantle, in th
   REQUIRE(c.rows == a.skin);
   const double per_square = c.weight[0] / std::pow(a.particles.radius[c.rows[0]], 2);
   for (std::size_t k = 0; k < c.rows.size(); ++k)
-    CHECK(c.weight[k] == doctest::Approx(per_square * std::pow(a.particles.radius[c.rows[k]], 2)).epsilon(1e-13));
+    CHECK(c.weight[k] ==
+          doctest::Approx(per_square * std::pow(a.particles.radius[c.rows[k]], 2)).epsilon(1e-13));
   for (std::size_t row = 0; row < a.particles.size; ++row) {
     const Vec3& x = a.particles.position[row];
     const bool near = std::hypot(x.x, x.y) + a.particles.radius[row] > 0.025 - 0.3 * a.mean_radius;
@@ -30,11 +35,14 @@ TEST_CASE("boundary: the weights of the skin add up to the nominal mantle, in th
   }
 }
 
-TEST_CASE("boundary: net force and all three moments of the pressure vanish [MODEL 10, 1e-13 of the sum of forces]") {
+TEST_CASE(
+    "boundary: net force and all three moments of the pressure vanish [MODEL 10, 1e-13 of the sum of "
+    "forces]") {
   Assembly a = packed(400);
   Confinement c = make_confinement(a, SkinWeights::radius, false);
   c.pressure = 9e6;
-  for (Vec3& x : a.particles.position) x = {1.03 * x.x + 0.0004 + 0.01 * x.z, 0.97 * x.y - 0.0002, 0.98 * x.z + 0.0003};
+  for (Vec3& x : a.particles.position)
+    x = {1.03 * x.x + 0.0004 + 0.01 * x.z, 0.97 * x.y - 0.0002, 0.98 * x.z + 0.0003};
   press_skin(c, a.particles);
   Vec3 net, moment;
   double size = 0, inward = 0;
@@ -53,10 +61,13 @@ TEST_CASE("boundary: net force and all three moments of the pressure vanish [MOD
   CHECK(std::abs(moment.z) < 1e-13 * size * 0.025);
   CHECK(inward == doctest::Approx(9e6 * a.mantle()).epsilon(0.01));  // the correction is small
   for (std::size_t row = 0; row < a.particles.size; ++row)
-    if (!std::binary_search(a.skin.begin(), a.skin.end(), static_cast<Row>(row))) CHECK(a.particles.force[row] == Vec3{});
+    if (!std::binary_search(a.skin.begin(), a.skin.end(), static_cast<Row>(row)))
+      CHECK(a.particles.force[row] == Vec3{});
 }
 
-TEST_CASE("boundary: a servo on a spring comes to rest where the reaction is the pressure, without overshoot [MODEL 10, 1e-9]") {
+TEST_CASE(
+    "boundary: a servo on a spring comes to rest where the reaction is the pressure, without overshoot "
+    "[MODEL 10, 1e-9]") {
   const Assembly a = packed(300);
   Assembly heavy = a;
   for (std::size_t k = 0; k < a.particles.size; ++k)
@@ -85,7 +96,9 @@ TEST_CASE("boundary: a servo on a spring comes to rest where the reaction is the
   CHECK(norm(p.velocity[0]) < 1e-9);
 }
 
-TEST_CASE("boundary: a packing under servo and mantle pressure comes to rest at that pressure [0.5 %, the stop test's own band]") {
+TEST_CASE(
+    "boundary: a packing under servo and mantle pressure comes to rest at that pressure [0.5 %, the stop "
+    "test's own band]") {
   const Assembly a = packed(200);
   reference::Parameters m;
   m.alpha = 0.75;
@@ -94,7 +107,8 @@ TEST_CASE("boundary: a packing under servo and mantle pressure comes to rest at 
   w.platens.servo = true;
   w.platens.pressure = w.confinement.pressure = 3e6;
   for (int k = 0; k < 6000; ++k) advance(w);
-  for (const double stress : scene::platen_stress(w.platens)) CHECK(stress == doctest::Approx(3e6).epsilon(0.005));
+  for (const double stress : scene::platen_stress(w.platens))
+    CHECK(stress == doctest::Approx(3e6).epsilon(0.005));
   CHECK(w.platens.travel[0].z > 0);
   CHECK(kinetic_energy(w) < 1e-4 * stored_energy(w));
 }
@@ -119,11 +133,14 @@ TEST_CASE("boundary: without a servo platens keep their speed and read reactions
   CHECK(shear_travel(p) == doctest::Approx(-3e-5).epsilon(1e-14));
 }
 
-TEST_CASE("boundary: rough platens fix lateral motion, smooth ones leave it free, spins are free, global damping [MODEL 7, 10]") {
+TEST_CASE(
+    "boundary: rough platens fix lateral motion, smooth ones leave it free, spins are free, global damping "
+    "[MODEL 7, 10]") {
   for (const bool rough : {true, false}) {
     std::vector<Vec3> x(1), v{{3, 0, 7}}, w{{0, 0, 2}}, f{{0, 5, 100}}, t{{0, 0, 4}};
     const std::vector<double> m{2}, r{0.5};
-    integrate_held({x, v, w, f, t, m, r}, 0, 1, 1e-2, {0.1, 0.2}, {Vec3{rough ? 0.5 : 9.0, 0, -0.25}, !rough});
+    integrate_held({x, v, w, f, t, m, r}, 0, 1, 1e-2, {0.1, 0.2},
+                   {Vec3{rough ? 0.5 : 9.0, 0, -0.25}, !rough});
     CHECK(v[0].z == -0.25);
     CHECK(v[0].x == doctest::Approx(rough ? 0.5 : 3 - 1e-2 / 2 * 0.1 * 5).epsilon(1e-14));
     CHECK(v[0].y == doctest::Approx(rough ? 0 : 1e-2 / 2 * 5).epsilon(1e-14));

@@ -51,7 +51,8 @@ void hold(const Cloud& c, std::initializer_list<std::pair<double, double>> reach
     const Pairs want = brute_force(c, relative, absolute);
     INFO("relative ", relative, ", absolute ", absolute, ", pairs ", want.size());
     CHECK(want.size() >= at_least);
-    const auto one = near_pairs(c.x, c.r, relative, absolute, 1), three = near_pairs(c.x, c.r, relative, absolute, 3);
+    const auto one = near_pairs(c.x, c.r, relative, absolute, 1),
+               three = near_pairs(c.x, c.r, relative, absolute, 3);
     CHECK(sorted(one) == want);
     CHECK(sorted(three) == want);
   }
@@ -59,12 +60,15 @@ void hold(const Cloud& c, std::initializer_list<std::pair<double, double>> reach
 
 }  // namespace
 
-TEST_CASE("cell list: random spheres, sizes 1 to 6, relative and absolute reach, threads 1 and 3 [brute force, equal]") {
+TEST_CASE(
+    "cell list: random spheres, sizes 1 to 6, relative and absolute reach, threads 1 and 3 [brute force, "
+    "equal]") {
   const Cloud c = cloud(1500, {1, 0.7, 2}, 0.01, 0.06, 1);
   hold(c, {{0, 0}, {0.1, 0}, {0, 0.02}, {0.3, 0.01}, {-0.3, 0}, {-0.9, 0.02}, {0, -0.01}, {-0.5, -0.005}}, 5);
 }
 
-TEST_CASE("cell list: fragments that have flown far, flat and thin clouds, all in one place [brute force, equal]") {
+TEST_CASE(
+    "cell list: fragments that have flown far, flat and thin clouds, all in one place [brute force, equal]") {
   Cloud far = cloud(1200, {1, 1, 1}, 0.02, 0.04, 2);
   far.x[3] = {1e4, 0, 0};
   far.x[4] = {1e4 + 0.03, 0, 0};
@@ -79,9 +83,10 @@ TEST_CASE("cell list: few and no spheres, spheres just inside and just outside t
   CHECK(near_pairs({}, {}, 0.1, 0, 2).empty());
   hold(cloud(1, {1, 1, 1}, 0.1, 0.2, 6), {{0.1, 0}}, 0);
   Cloud c;
-  for (int k = 0; k < 600; ++k) c.x.push_back({k % 2 ? 2.0 * (k / 2) + 1.0001 : 2.0 * (k / 2), 0, 0}), c.r.push_back(0.5);
-  CHECK(near_pairs(c.x, c.r, 0, 0, 3).size() == 299);       // pairs 0.9999 apart
-  CHECK(near_pairs(c.x, c.r, 2e-4, 0, 3).size() == 599);    // and those 1.0001 apart
+  for (int k = 0; k < 600; ++k)
+    c.x.push_back({k % 2 ? 2.0 * (k / 2) + 1.0001 : 2.0 * (k / 2), 0, 0}), c.r.push_back(0.5);
+  CHECK(near_pairs(c.x, c.r, 0, 0, 3).size() == 299);     // pairs 0.9999 apart
+  CHECK(near_pairs(c.x, c.r, 2e-4, 0, 3).size() == 599);  // and those 1.0001 apart
   CHECK(near_pairs(c.x, c.r, 0.9e-4, 0, 3).size() == 299);
   CHECK(near_pairs(c.x, c.r, 0, 1.1e-4, 3).size() == 599);
 }

@@ -1,5 +1,5 @@
-// Contacts between surfaces that were never bonded: found before they can overlap, kept while they last, and never
-// made of what is bonded.
+// Contacts between surfaces that were never bonded: found before they can overlap, kept while they last, and
+// never made of what is bonded.
 #include <doctest/doctest.h>
 
 #include <map>
@@ -17,12 +17,14 @@ using Ends = std::pair<Row, Row>;
 
 std::set<Ends> candidates(const World& w) {
   std::set<Ends> all;
-  for (std::size_t k = 0; k < w.contacts.size; ++k) all.insert(std::minmax(w.contacts.row_lo[k], w.contacts.row_hi[k]));
+  for (std::size_t k = 0; k < w.contacts.size; ++k)
+    all.insert(std::minmax(w.contacts.row_lo[k], w.contacts.row_hi[k]));
   return all;
 }
 std::set<Ends> bonded(const World& w) {
   std::set<Ends> all;
-  for (std::size_t k = 0; k < w.bonds.size; ++k) all.insert(std::minmax(w.bonds.row_lo[k], w.bonds.row_hi[k]));
+  for (std::size_t k = 0; k < w.bonds.size; ++k)
+    all.insert(std::minmax(w.bonds.row_lo[k], w.bonds.row_hi[k]));
   return all;
 }
 std::set<Ends> overlapping(const World& w, const std::vector<Vec3>& x) {
@@ -34,8 +36,8 @@ std::set<Ends> overlapping(const World& w, const std::vector<Vec3>& x) {
 }
 
 World world_of(const std::vector<Ball>& balls, const ref::Parameters& p) {
-  return make_world(scene::free_body(balls, p.beta, scene::options(p).features), scene::material_of(p), scene::factor(p),
-                    scene::options(p));
+  return make_world(scene::free_body(balls, p.beta, scene::options(p).features), scene::material_of(p),
+                    scene::factor(p), scene::options(p));
 }
 
 struct Watch {
@@ -75,15 +77,18 @@ ref::Parameters soft() {
 
 }  // namespace
 
-TEST_CASE("contacts: a gas of 80 unequal spheres: every overlap is on the list when its force is due [all steps]") {
+TEST_CASE(
+    "contacts: a gas of 80 unequal spheres: every overlap is on the list when its force is due [all steps]") {
   const ref::Parameters p = soft();
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> in(-1, 1), unit(0, 1);
   std::vector<Ball> balls;
   while (balls.size() < 80) {
-    const Ball b{balls.size() + 1, 0.01 + 0.03 * unit(random), 0.25 * Vec3{in(random), in(random), in(random)}, 0,
+    const Ball b{balls.size() + 1, 0.01 + 0.03 * unit(random),
+                 0.25 * Vec3{in(random), in(random), in(random)}, 0,
                  5.0 * Vec3{in(random), in(random), in(random)}};
-    if (std::ranges::all_of(balls, [&](const Ball& o) { return norm(o.x - b.x) > o.radius + b.radius; })) balls.push_back(b);
+    if (std::ranges::all_of(balls, [&](const Ball& o) { return norm(o.x - b.x) > o.radius + b.radius; }))
+      balls.push_back(b);
   }
   for (Ball& b : balls) b.v -= 8.0 * b.x;
   add_bonded_pair(balls);
@@ -97,7 +102,9 @@ TEST_CASE("contacts: a gas of 80 unequal spheres: every overlap is on the list w
   CHECK(w.search.rebuilds < 2000);
 }
 
-TEST_CASE("contacts: spheres apart by more than the skin that are pressed together evenly are found in time [all steps]") {
+TEST_CASE(
+    "contacts: spheres apart by more than the skin that are pressed together evenly are found in time [all "
+    "steps]") {
   const ref::Parameters p = soft();
   std::vector<Ball> balls;
   for (int k = 0; k < 22; ++k) {
@@ -113,7 +120,9 @@ TEST_CASE("contacts: spheres apart by more than the skin that are pressed togeth
   CHECK(seen.missed == 0);
 }
 
-TEST_CASE("contacts: a specimen crushed between platens: nothing is missed, bonded pairs never become contacts [all steps]") {
+TEST_CASE(
+    "contacts: a specimen crushed between platens: nothing is missed, bonded pairs never become contacts "
+    "[all steps]") {
   ref::Parameters p;
   p.alpha = 0.8;
   const Assembly a = assemble(scene::small_packing(120), scene::small_cylinder(), {}, Features{}, 1);
@@ -126,11 +135,14 @@ TEST_CASE("contacts: a specimen crushed between platens: nothing is missed, bond
   CHECK(seen.bonded_contacts == 0);
 }
 
-TEST_CASE("contacts: pairs that overlap unbonded lie still, and are ordinary contacts once parted [MODEL 2, rel 1e-12]") {
+TEST_CASE(
+    "contacts: pairs that overlap unbonded lie still, and are ordinary contacts once parted [MODEL 2, rel "
+    "1e-12]") {
   ref::Parameters p;
   p.contact_damping = false;
   p.xi = 0;
-  std::vector<Ball> balls{{1, 0.01, {0, 0, 0}, 0}, {2, 0.01, {0.017, 0, 0}, 0}, {3, 0.01, {0.017, 0.012, 0}, 1}};
+  std::vector<Ball> balls{
+      {1, 0.01, {0, 0, 0}, 0}, {2, 0.01, {0.017, 0, 0}, 0}, {3, 0.01, {0.017, 0.012, 0}, 1}};
   add_bonded_pair(balls);
   World w = world_of(balls, p);
   for (int k = 0; k < 300; ++k) advance(w);
@@ -146,8 +158,9 @@ TEST_CASE("contacts: pairs that overlap unbonded lie still, and are ordinary con
     advance(w);
     return w.particles.velocity[0].x * w.particles.mass[0] / w.dt;
   };
-  CHECK(force_at(0.0165) == doctest::Approx(-k_n * 0.0005).epsilon(1e-9));  // pressed from the initial distance
-  CHECK(force_at(0.0180) == 0.0);                                           // opened, not yet parted
+  CHECK(force_at(0.0165) ==
+        doctest::Approx(-k_n * 0.0005).epsilon(1e-9));  // pressed from the initial distance
+  CHECK(force_at(0.0180) == 0.0);                       // opened, not yet parted
   CHECK(force_at(0.0165) == doctest::Approx(-k_n * 0.0005).epsilon(1e-9));
   CHECK(force_at(0.0201) == 0.0);  // parted
   CHECK(force_at(0.0195) == doctest::Approx(-k_n * 0.0005).epsilon(1e-9));
@@ -168,18 +181,20 @@ TEST_CASE("contacts: a new list keeps the friction and free length of pairs in c
   REQUIRE(rubbing() == 2);
   std::map<std::pair<Gid, Gid>, std::pair<double, Vec3>> before;
   for (std::size_t k = 0; k < w.contacts.size; ++k) {
-    before[{w.contacts.gid_lo[k], w.contacts.gid_hi[k]}] = {w.contacts.free_length[k], w.contacts.shear_force[k]};
+    before[{w.contacts.gid_lo[k], w.contacts.gid_hi[k]}] = {w.contacts.free_length[k],
+                                                            w.contacts.shear_force[k]};
   }
   w.particles.position[3] = {0.0305, 0, 0};  // a new neighbour, so that rows shift
-  renew_contacts(w.search, w.contacts, w.particles, {w.material.young_modulus, w.alpha, w.options.contact_damping},
-                 w.options.features, 1);
+  renew_contacts(w.search, w.contacts, w.particles,
+                 {w.material.young_modulus, w.alpha, w.options.contact_damping}, w.options.features, 1);
   CHECK(w.contacts.size > before.size());
   std::size_t kept = 0;
   for (std::size_t k = 0; k < w.contacts.size; ++k) {
     const auto old = before.find({w.contacts.gid_lo[k], w.contacts.gid_hi[k]});
     if (old == before.end()) {
       CHECK(w.contacts.shear_force[k] == Vec3{});
-      CHECK(w.contacts.free_length[k] == w.particles.radius[w.contacts.row_lo[k]] + w.particles.radius[w.contacts.row_hi[k]]);
+      CHECK(w.contacts.free_length[k] ==
+            w.particles.radius[w.contacts.row_lo[k]] + w.particles.radius[w.contacts.row_hi[k]]);
       continue;
     }
     ++kept;

@@ -1,5 +1,6 @@
-// The law of a bond as the production loop runs it, one number at a time and in wide registers whose lanes carry
-// different bonds: against closed forms of MODEL sections 3 and 4, and against the reference on random paths.
+// The law of a bond as the production loop runs it, one number at a time and in wide registers whose lanes
+// carry different bonds: against closed forms of MODEL sections 3 and 4, and against the reference on random
+// paths.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -72,8 +73,8 @@ Bond bond_between(const Parameters& p, double r_i, double r_j, double d) {
 }
 /// Touching, apart, overlapping, nested: lanes with different areas and lengths.
 std::vector<Bond> several_bonds(const Parameters& p) {
-  return {bond_between(p, 0.01, 0.01, 0.02), bond_between(p, 0.01, 0.02, 0.0325), bond_between(p, 0.03, 0.008, 0.035),
-          bond_between(p, 0.02, 0.005, 0.0035)};
+  return {bond_between(p, 0.01, 0.01, 0.02), bond_between(p, 0.01, 0.02, 0.0325),
+          bond_between(p, 0.03, 0.008, 0.035), bond_between(p, 0.02, 0.005, 0.0035)};
 }
 double stretch_limit(const Parameters& p, const Bond& b) { return p.sigma_t * b.area / b.k_n; }
 double shear_limit(const Parameters& p, const Bond& b) { return p.tau_f * b.area / b.k_s; }
@@ -92,7 +93,8 @@ Path along(const Path& corners, int steps) {
   return path;
 }
 
-/// Stretches as the difference of a distance and d0 can be: the law is not blamed for the rounding of the distance.
+/// Stretches as the difference of a distance and d0 can be: the law is not blamed for the rounding of the
+/// distance.
 Path representable(const Bond& b, Path path) {
   for (PathPoint& q : path) q.u = (b.d0 + q.u) - b.d0;
   return path;
@@ -128,45 +130,63 @@ double softened(double k, double limit, double delta, double x, double& top) {
 void add_compression(const Parameters& p, std::vector<Claim>& claims) {
   for (const Bond& b : several_bonds(p)) {
     const double L = length_of(p, b);
-    claims.push_back(claim("three slopes", b, along({{-0.06 * L}}, 300), p.LCS[2] * b.area,
-                           [&](PathPoint q) { return Vec3{-b.area * three_slopes(p, -q.u / L), 0, 0}; }));
+    claims.push_back(claim("three slopes", b, along({{-0.06 * L}}, 300), p.LCS[2] * b.area, [&](PathPoint q) {
+      return Vec3{-b.area * three_slopes(p, -q.u / L), 0, 0};
+    }));
   }
   REQUIRE(three_slopes(p, 0.06) > p.LCS[2]);
 }
 
-/// Loading, unloading, reloading, through zero, softening in tension from the plastic stretch, secant unloading.
+/// Loading, unloading, reloading, through zero, softening in tension from the plastic stretch, secant
+/// unloading.
 void add_plastic_then_tension(const Parameters& p, std::vector<Claim>& claims) {
   for (const Bond& b : several_bonds(p)) {
     const double L = length_of(p, b), deep = -0.008 * L, u_l = stretch_limit(p, b);
     const double u_p = deep + b.area * three_slopes(p, 0.008) / b.k_n;
     REQUIRE(u_p < -10 * u_l);
     double deepest = 0, plastic = 0, top = 0;
-    claims.push_back(claim("plastic, then tension", b,
-                           along({{deep}, {u_p}, {u_p + u_l}, {u_p + u_l * (1 + b.delta_n / 2)}, {u_p + 0.2 * u_l},
-                                  {u_p + u_l * (1 + 0.6 * b.delta_n)}, {deep}, {1.5 * deep}, {1.4 * deep}}, 41),
-                           p.LCS[1] * b.area, [&](PathPoint q) {
-                             if (q.u < deepest) {
-                               deepest = q.u;
-                               plastic = std::min(0.0, q.u + b.area * three_slopes(p, -q.u / L) / b.k_n);
-                             }
-                             const double u_e = q.u - plastic;
-                             return Vec3{u_e > 0 ? softened(b.k_n, u_l, b.delta_n, u_e, top) : b.k_n * u_e, 0, 0};
-                           }));
+    claims.push_back(
+        claim("plastic, then tension", b,
+              along({{deep},
+                     {u_p},
+                     {u_p + u_l},
+                     {u_p + u_l * (1 + b.delta_n / 2)},
+                     {u_p + 0.2 * u_l},
+                     {u_p + u_l * (1 + 0.6 * b.delta_n)},
+                     {deep},
+                     {1.5 * deep},
+                     {1.4 * deep}},
+                    41),
+              p.LCS[1] * b.area, [&](PathPoint q) {
+                if (q.u < deepest) {
+                  deepest = q.u;
+                  plastic = std::min(0.0, q.u + b.area * three_slopes(p, -q.u / L) / b.k_n);
+                }
+                const double u_e = q.u - plastic;
+                return Vec3{u_e > 0 ? softened(b.k_n, u_l, b.delta_n, u_e, top) : b.k_n * u_e, 0, 0};
+              }));
   }
 }
 
-/// Damage in tension, full stiffness when closed, the damage still there when opened again, then broken for good.
+/// Damage in tension, full stiffness when closed, the damage still there when opened again, then broken for
+/// good.
 void add_damage_compression_tension(const Parameters& p, std::vector<Claim>& claims) {
   for (const Bond& b : several_bonds(p)) {
     const double u_l = stretch_limit(p, b), d = b.delta_n;
     double top = 0;
-    claims.push_back(claim(
-        "damage, compression, tension, broken", b,
-        along({{u_l * (1 + 0.3 * d)}, {0.3 * u_l}, {u_l * (1 + 0.5 * d)}, {-u_l}, {u_l * (1 + 0.55 * d)},
-               {u_l * (1 + 1.2 * d)}, {-u_l}, {u_l}}, 53),
-        p.sigma_t * b.area, [&](PathPoint q) {
-          return Vec3{q.u > 0 ? softened(b.k_n, u_l, d, q.u, top) : b.k_n * q.u, 0, 0};
-        }));
+    claims.push_back(claim("damage, compression, tension, broken", b,
+                           along({{u_l * (1 + 0.3 * d)},
+                                  {0.3 * u_l},
+                                  {u_l * (1 + 0.5 * d)},
+                                  {-u_l},
+                                  {u_l * (1 + 0.55 * d)},
+                                  {u_l * (1 + 1.2 * d)},
+                                  {-u_l},
+                                  {u_l}},
+                                 53),
+                           p.sigma_t * b.area, [&](PathPoint q) {
+                             return Vec3{q.u > 0 ? softened(b.k_n, u_l, d, q.u, top) : b.k_n * q.u, 0, 0};
+                           }));
   }
 }
 
@@ -203,29 +223,43 @@ void add_broken_in_tension(const Parameters& p, std::vector<Claim>& claims) {
   const Bond b = several_bonds(p)[1];
   const double N = 10e6 * b.area, u = -N / b.k_n, R = p.mu2 * N, y = 3 * R / b.k_s,
                far = stretch_limit(p, b) * (1.01 + b.delta_n);
-  claims.push_back({"broken in tension, pressed again", b,
-                    {{far, 0, 0}, {u, 0, 0}, {u, y, 0}, {u, y, 0.75 * R / b.k_s}, {-u, y, y}, {u, y, y},
-                     {u, y, y + 0.5 * R / b.k_s}},
-                    {{0, 0, 0}, {-N, 0, 0}, {-N, R, 0}, {-N, 0.8 * R, 0.6 * R}, {0, 0, 0}, {-N, 0, 0},
-                     {-N, 0, 0.5 * R}},
-                    N});
+  claims.push_back(
+      {"broken in tension, pressed again",
+       b,
+       {{far, 0, 0},
+        {u, 0, 0},
+        {u, y, 0},
+        {u, y, 0.75 * R / b.k_s},
+        {-u, y, y},
+        {u, y, y},
+        {u, y, y + 0.5 * R / b.k_s}},
+       {{0, 0, 0}, {-N, 0, 0}, {-N, R, 0}, {-N, 0.8 * R, 0.6 * R}, {0, 0, 0}, {-N, 0, 0}, {-N, 0, 0.5 * R}},
+       N});
   // shear that was there when the bond breaks in tension is lost in the same step
   const double s_l = shear_limit(p, b);
-  claims.push_back({"shear of a bond that breaks in tension", b,
+  claims.push_back({"shear of a bond that breaks in tension",
+                    b,
                     {{0, 0.5 * s_l, 0}, {far, 0.5 * s_l, 0}, {u, 0.5 * s_l, 0}},
-                    {{0, 0.5 * p.tau_f * b.area, 0}, {0, 0, 0}, {-N, 0, 0}}, N});
+                    {{0, 0.5 * p.tau_f * b.area, 0}, {0, 0, 0}, {-N, 0, 0}},
+                    N});
 }
 
 /// Broken in shear: the tension is lost, pressure comes back, no pull later.
 void add_broken_in_shear(const Parameters& p, std::vector<Claim>& claims) {
   const Bond b = several_bonds(p)[2];
-  const double N = 10e6 * b.area, u = -N / b.k_n, R = p.mu2 * N, s_l = shear_limit(p, b), u_t = 0.5 * stretch_limit(p, b),
-               far = s_l * (1.01 + b.delta_s);
-  claims.push_back({"broken in shear", b,
-                    {{u_t, 0.5 * s_l, 0}, {u_t, far, 0}, {u_t, 0, 0}, {u, 0, 0}, {u, 0, 0.5 * R / b.k_s}, {u_t, 0, 0}},
-                    {{0.5 * p.sigma_t * b.area, 0.5 * p.tau_f * b.area, 0}, {0, 0, 0}, {0, 0, 0}, {-N, 0, 0},
-                     {-N, 0, 0.5 * R}, {0, 0, 0}},
-                    N});
+  const double N = 10e6 * b.area, u = -N / b.k_n, R = p.mu2 * N, s_l = shear_limit(p, b),
+               u_t = 0.5 * stretch_limit(p, b), far = s_l * (1.01 + b.delta_s);
+  claims.push_back(
+      {"broken in shear",
+       b,
+       {{u_t, 0.5 * s_l, 0}, {u_t, far, 0}, {u_t, 0, 0}, {u, 0, 0}, {u, 0, 0.5 * R / b.k_s}, {u_t, 0, 0}},
+       {{0.5 * p.sigma_t * b.area, 0.5 * p.tau_f * b.area, 0},
+        {0, 0, 0},
+        {0, 0, 0},
+        {-N, 0, 0},
+        {-N, 0, 0.5 * R},
+        {0, 0, 0}},
+       N});
 }
 
 Parameters tough() {
@@ -240,7 +274,8 @@ constexpr Features uncoupled = features_of(Criterion::uncoupled), coupled = feat
 
 }  // namespace
 
-TEST_CASE("dempack/normal: slopes, unloading, through zero, softening, damage kept [MODEL 3, closed form, 1e-12]") {
+TEST_CASE(
+    "dempack/normal: slopes, unloading, through zero, softening, damage kept [MODEL 3, closed form, 1e-12]") {
   const Parameters p = tough();
   std::vector<Claim> claims;
   add_compression(p, claims);
@@ -250,7 +285,8 @@ TEST_CASE("dempack/normal: slopes, unloading, through zero, softening, damage ke
   hold<mohr_coulomb>(p, claims);
 }
 
-TEST_CASE("dempack/shear: softening, Coulomb line, broken bonds and their friction [MODEL 4, closed form, 1e-12]") {
+TEST_CASE(
+    "dempack/shear: softening, Coulomb line, broken bonds and their friction [MODEL 4, closed form, 1e-12]") {
   const Parameters p = tough();
   std::vector<Claim> claims;
   add_shear(p, claims);
@@ -260,7 +296,8 @@ TEST_CASE("dempack/shear: softening, Coulomb line, broken bonds and their fricti
   hold<uncoupled>(p, claims);
 }
 
-TEST_CASE("dempack/shear: a stronger pressure reloads with the secant stiffness to (1 - D) S [MODEL 4, 1e-12]") {
+TEST_CASE(
+    "dempack/shear: a stronger pressure reloads with the secant stiffness to (1 - D) S [MODEL 4, 1e-12]") {
   Parameters p;
   p.delta_s = 1.0;
   p.mu2 = 0;
@@ -269,39 +306,57 @@ TEST_CASE("dempack/shear: a stronger pressure reloads with the secant stiffness 
     const double S0 = p.tau_f * b.area, S1 = 1.5 * S0, u = -(S1 - S0) / p.mu1 / b.k_n, N = b.k_n * -u;
     REQUIRE(N / b.area < p.LCS[0]);
     const double s0 = S0 / b.k_s, s1 = S1 / b.k_s;
-    claims.push_back({"reloading", b,
+    claims.push_back({"reloading",
+                      b,
                       {{0, 1.5 * s0}, {u, 1.5 * s0}, {u, 0.999 * 1.5 * s1}, {u, 1.5 * s1}, {u, 1.6 * s1}},
-                      {{0, 0.5 * S0, 0}, {-N, 0.5 * S0, 0}, {-N, 0.5 * S1 * 0.999, 0}, {-N, 0.5 * S1, 0},
+                      {{0, 0.5 * S0, 0},
+                       {-N, 0.5 * S0, 0},
+                       {-N, 0.5 * S1 * 0.999, 0},
+                       {-N, 0.5 * S1, 0},
                        {-N, 0.4 * S1, 0}},
                       S1});
-    claims.push_back({"a weaker pressure softens at once", b, {{u, 1.2 * s1}, {0, 1.2 * s1}},
-                      {{-N, 0.8 * S1, 0}, {0, 0.2 * S0, 0}}, S1});
+    claims.push_back({"a weaker pressure softens at once",
+                      b,
+                      {{u, 1.2 * s1}, {0, 1.2 * s1}},
+                      {{-N, 0.8 * S1, 0}, {0, 0.2 * S0, 0}},
+                      S1});
   }
   hold<uncoupled>(p, claims);
 }
 
-TEST_CASE("dempack/shear: a failing bond hands friction no more than it carried: |F| := min(|F|, R) [MODEL 4, 1e-12]") {
+TEST_CASE(
+    "dempack/shear: a failing bond hands friction no more than it carried: |F| := min(|F|, R) [MODEL 4, "
+    "1e-12]") {
   Parameters p;
   p.delta_s = 1.0;
   p.mu1 = 0.1;
   p.mu2 = 2;
   std::vector<Claim> claims;
   for (const Bond& b : several_bonds(p)) {
-    // D = 1/2, g = 1/3; then pressed with N = tau_f A and sheared on at once: S = 1.1, R = 2, trial 1.8 g = 0.6
+    // D = 1/2, g = 1/3; then pressed with N = tau_f A and sheared on at once: S = 1.1, R = 2, trial 1.8 g =
+    // 0.6
     const double S = p.tau_f * b.area, u = -S / b.k_n, y = S / b.k_s;
-    claims.push_back({"handed over", b, {{0, 1.5 * y}, {u, 1.8 * y}, {u, 2.0 * y}, {u, 9.0 * y}},
-                      {{0, 0.5 * S, 0}, {-S, 0.6 * S, 0}, {-S, 0.8 * S, 0}, {-S, 2 * S, 0}}, S});
+    claims.push_back({"handed over",
+                      b,
+                      {{0, 1.5 * y}, {u, 1.8 * y}, {u, 2.0 * y}, {u, 9.0 * y}},
+                      {{0, 0.5 * S, 0}, {-S, 0.6 * S, 0}, {-S, 0.8 * S, 0}, {-S, 2 * S, 0}},
+                      S});
   }
   hold<uncoupled>(p, claims);
 }
 
-TEST_CASE("dempack/law: uncoupled, tension and shear know nothing of each other until one breaks [MODEL 4, 1e-12]") {
+TEST_CASE(
+    "dempack/law: uncoupled, tension and shear know nothing of each other until one breaks [MODEL 4, "
+    "1e-12]") {
   const Parameters p;
   std::vector<Claim> claims;
   for (const Bond& b : several_bonds(p)) {
     const double u = stretch_limit(p, b), s = shear_limit(p, b), T = p.sigma_t * b.area, S = p.tau_f * b.area;
-    claims.push_back({"independent", b, {{1.1 * u, 0}, {1.1 * u, s}, {1.1 * u, 1.1 * s}, {1.3 * u, 1.1 * s}},
-                      {{0.5 * T, 0, 0}, {0.5 * T, S, 0}, {0.5 * T, 0.5 * S, 0}, {0, 0, 0}}, S});
+    claims.push_back({"independent",
+                      b,
+                      {{1.1 * u, 0}, {1.1 * u, s}, {1.1 * u, 1.1 * s}, {1.3 * u, 1.1 * s}},
+                      {{0.5 * T, 0, 0}, {0.5 * T, S, 0}, {0.5 * T, 0.5 * S, 0}, {0, 0, 0}},
+                      S});
   }
   hold<uncoupled>(p, claims);
 }
@@ -312,12 +367,21 @@ TEST_CASE("dempack/law: delta = 0 breaks at once, in tension and in shear [MODEL
   std::vector<Claim> claims;
   for (const Bond& b : several_bonds(p)) {
     const double u = stretch_limit(p, b), s = shear_limit(p, b), T = p.sigma_t * b.area, S = p.tau_f * b.area;
-    claims.push_back({"brittle tension", b, {{0.5 * u}, {0.999 * u}, {1.001 * u}, {0.5 * u}, {-0.5 * u}},
-                      {{0.5 * T, 0, 0}, {0.999 * T, 0, 0}, {0, 0, 0}, {0, 0, 0}, {-0.5 * T, 0, 0}}, T});
-    claims.push_back({"brittle shear", b, {{0.5 * u, 0, 0}, {0.5 * u, 0, 0.999 * s}, {0.5 * u, 0, 1.001 * s}},
-                      {{0.5 * T, 0, 0}, {0.5 * T, 0, 0.999 * S}, {0, 0, 0}}, S});
-    claims.push_back({"brittle shear under pressure", b, {{-2 * u, 0.1 * s}, {-2 * u, 1.8 * s}},
-                      {{-2 * T, 0.1 * S, 0}, {-2 * T, p.mu2 * 2 * T, 0}}, S});
+    claims.push_back({"brittle tension",
+                      b,
+                      {{0.5 * u}, {0.999 * u}, {1.001 * u}, {0.5 * u}, {-0.5 * u}},
+                      {{0.5 * T, 0, 0}, {0.999 * T, 0, 0}, {0, 0, 0}, {0, 0, 0}, {-0.5 * T, 0, 0}},
+                      T});
+    claims.push_back({"brittle shear",
+                      b,
+                      {{0.5 * u, 0, 0}, {0.5 * u, 0, 0.999 * s}, {0.5 * u, 0, 1.001 * s}},
+                      {{0.5 * T, 0, 0}, {0.5 * T, 0, 0.999 * S}, {0, 0, 0}},
+                      S});
+    claims.push_back({"brittle shear under pressure",
+                      b,
+                      {{-2 * u, 0.1 * s}, {-2 * u, 1.8 * s}},
+                      {{-2 * T, 0.1 * S, 0}, {-2 * T, p.mu2 * 2 * T, 0}},
+                      S});
   }
   hold<uncoupled>(p, claims);
 }
@@ -334,18 +398,24 @@ TEST_CASE("dempack/law: delta from fracture energies, different in every bond [M
     const double delta_s = std::max(0.0, 2 * b.k_s * 900 / (p.tau_f * p.tau_f * b.area) - 1);
     least = std::min(least, delta_n), most = std::max(most, delta_n);
     double top = 0, top_s = 0;
-    claims.push_back(claim("G_I", b, along({{u_l * (1 + delta_n / 2)}, {0.1 * u_l}, {u_l * (1.2 + delta_n)}}, 61),
-                           p.sigma_t * b.area,
-                           [&](PathPoint q) { return Vec3{softened(b.k_n, u_l, delta_n, q.u, top), 0, 0}; }));
-    claims.push_back(claim("G_II", b, along({{0, 0, s_l * (1 + delta_s / 2)}, {0, 0, 0.1 * s_l}, {0, 0, s_l * (1.2 + delta_s)}}, 61),
-                           p.tau_f * b.area,
-                           [&](PathPoint q) { return Vec3{0, 0, softened(b.k_s, s_l, delta_s, q.z, top_s)}; }));
+    claims.push_back(claim("G_I", b,
+                           along({{u_l * (1 + delta_n / 2)}, {0.1 * u_l}, {u_l * (1.2 + delta_n)}}, 61),
+                           p.sigma_t * b.area, [&](PathPoint q) {
+                             return Vec3{softened(b.k_n, u_l, delta_n, q.u, top), 0, 0};
+                           }));
+    claims.push_back(
+        claim("G_II", b,
+              along({{0, 0, s_l * (1 + delta_s / 2)}, {0, 0, 0.1 * s_l}, {0, 0, s_l * (1.2 + delta_s)}}, 61),
+              p.tau_f * b.area, [&](PathPoint q) {
+                return Vec3{0, 0, softened(b.k_s, s_l, delta_s, q.z, top_s)};
+              }));
   }
   REQUIRE(most > 2 * least);
   hold<uncoupled>(p, claims);
 }
 
-TEST_CASE("dempack/coupled: one damage for both forces of a pulled bond, kept when it closes [MODEL 4, 1e-12]") {
+TEST_CASE(
+    "dempack/coupled: one damage for both forces of a pulled bond, kept when it closes [MODEL 4, 1e-12]") {
   Parameters p;
   p.criterion = ref::Criterion::coupled;
   p.delta_n = 0.3;
@@ -356,7 +426,8 @@ TEST_CASE("dempack/coupled: one damage for both forces of a pulled bond, kept wh
     for (const double share : {0.2, 0.75}) {  // of tension in r, on a radial path
       const double delta = 0.3 * share + 0.9 * (1 - share);
       const auto at = [&](double r) { return PathPoint{r * share * u}; };
-      Path path = representable(b, along({at(1 + 0.5 * delta), at(0.2), at(1 + 0.99 * delta), at(1 + 1.01 * delta)}, 47));
+      Path path = representable(
+          b, along({at(1 + 0.5 * delta), at(0.2), at(1 + 0.99 * delta), at(1 + 1.01 * delta)}, 47));
       for (PathPoint& q : path) q.y = q.u / u / share * (1 - share) * s;
       double top = 0;
       claims.push_back(claim("radial", b, path, S, [&](PathPoint q) {
@@ -367,11 +438,14 @@ TEST_CASE("dempack/coupled: one damage for both forces of a pulled bond, kept wh
     // damaged by shear while closed (D = 1/2), opened, closed, sheared back
     const double y = 1.45 * s, D = (1.55 - 1) / ((0.3 * 0.1 + 0.9 * 1.45) / 1.55);
     const double mixed = (0.3 * 0.02 + 0.9 * 1.45) / 1.47, kept = (1 - D) / (1 + 0.9 * D);
-    claims.push_back({"opening a sheared bond", b,
+    claims.push_back({"opening a sheared bond",
+                      b,
                       {{0, y}, {0.1 * u, y}, {0.02 * u, y}, {-u, y}, {0, 0.5 * y}},
-                      {{0, 0.5 * S, 0}, {(1 - D) * 0.1 / 1.55 * T, (1 - D) * 1.45 / 1.55 * S, 0},
+                      {{0, 0.5 * S, 0},
+                       {(1 - D) * 0.1 / 1.55 * T, (1 - D) * 1.45 / 1.55 * S, 0},
                        {(1 - D) / (1 + mixed * D) * 0.02 * T, (1 - D) / (1 + mixed * D) * 1.45 * S, 0},
-                       {-T, kept * 1.45 * S, 0}, {0, 0.5 * kept * 1.45 * S, 0}},
+                       {-T, kept * 1.45 * S, 0},
+                       {0, 0.5 * kept * 1.45 * S, 0}},
                       S});
   }
   add_compression(p, claims);
@@ -387,8 +461,8 @@ TEST_CASE("dempack/mohr-coulomb: tension lowers the shear strength, pressure rai
   std::vector<Claim> claims;
   for (const Bond& b : several_bonds(p))
     for (const double stress : {-8e6, 0.0, 4e6}) {
-      const double u = representable(b, {{stress * b.area / b.k_n}})[0].u, N = b.k_n * u, S = p.tau_f * b.area - 2.5 * N,
-                   R = p.mu2 * std::max(-N, 0.0);
+      const double u = representable(b, {{stress * b.area / b.k_n}})[0].u, N = b.k_n * u,
+                   S = p.tau_f * b.area - 2.5 * N, R = p.mu2 * std::max(-N, 0.0);
       Path path = along({{u, 0}, {u, 1.9 * S / b.k_s}}, 93);
       path.erase(path.begin(), path.begin() + 92);
       double top = 0;
@@ -409,13 +483,16 @@ TEST_CASE("dempack/mohr-coulomb: tension lowers the shear strength, pressure rai
   hold<mohr_coulomb>(p, claims);
 }
 
-TEST_CASE("dempack/toggles: no breakage and no plasticity is a spring, either alone is kept [MODEL 3, 1e-12]") {
+TEST_CASE(
+    "dempack/toggles: no breakage and no plasticity is a spring, either alone is kept [MODEL 3, 1e-12]") {
   const Parameters p = tough();
   std::vector<Claim> spring, plastic;
   for (const Bond& b : several_bonds(p)) {
     const double far = 0.02 * b.d0, L = length_of(p, b);
-    spring.push_back(claim("spring", b, along({{far, far}, {-far, -far, far}}, 10), b.k_n * far,
-                           [&](PathPoint q) { return Vec3{b.k_n * q.u, b.k_s * q.y, b.k_s * q.z}; }));
+    spring.push_back(
+        claim("spring", b, along({{far, far}, {-far, -far, far}}, 10), b.k_n * far, [&](PathPoint q) {
+          return Vec3{b.k_n * q.u, b.k_s * q.y, b.k_s * q.z};
+        }));
     plastic.push_back(claim("never broken", b, along({{-0.02 * L, far}}, 50), b.k_n * far, [&](PathPoint q) {
       return Vec3{-b.area * three_slopes(p, -q.u / L), b.k_s * q.y, 0};
     }));
@@ -426,8 +503,10 @@ TEST_CASE("dempack/toggles: no breakage and no plasticity is a spring, either al
   hold<no_breakage>(p, plastic);
   std::vector<Claim> elastic;
   for (const Bond& b : several_bonds(p))
-    elastic.push_back(claim("never yields", b, along({{-0.05 * b.d0}}, 50), 0.05 * b.k_n * b.d0,
-                            [&](PathPoint q) { return Vec3{b.k_n * q.u, 0, 0}; }));
+    elastic.push_back(
+        claim("never yields", b, along({{-0.05 * b.d0}}, 50), 0.05 * b.k_n * b.d0, [&](PathPoint q) {
+          return Vec3{b.k_n * q.u, 0, 0};
+        }));
   hold<no_plasticity>(p, elastic);
 }
 
@@ -446,14 +525,15 @@ Path random_path(const Parameters& p, const Bond& b, std::mt19937_64& random) {
     const double kind = unit(random);
     const double u = kind < 0.3   ? -0.03 * unit(random) * e * violence
                      : kind < 0.5 ? -3 * unit(random) * u_l
-                     : sheared    ? 0.3 * in(random) * u_l
-                                  : from.u + in(random) * u_l * violence;
+                     : sheared    ? 0.3 * in(random)*u_l
+                                  : from.u + in(random)*u_l * violence;
     const double reach = (sheared ? 1.5 : 1.0) * violence * s_l;
     const PathPoint to{u, reach * in(random), reach * in(random)};
     const int steps = 8 * pieces(random);
     for (int k = 1; k <= steps; ++k) {
       const double t = double(k) / steps;
-      path.push_back({from.u + t * (to.u - from.u), from.y + t * (to.y - from.y), from.z + t * (to.z - from.z)});
+      path.push_back(
+          {from.u + t * (to.u - from.u), from.y + t * (to.y - from.y), from.z + t * (to.z - from.z)});
     }
     from = to;
   }
@@ -487,7 +567,8 @@ Met hold_random(Parameters p, std::uint64_t seed) {
     met.tension += last.broken == Broken::tension;
     met.shear += last.broken == Broken::shear;
     met.intact += last.broken == Broken::no;
-    met.damaged += std::ranges::any_of(path, [](const Bond& b) { return b.broken == Broken::no && (b.D_n > 0 || b.D_s > 0); });
+    met.damaged += std::ranges::any_of(
+        path, [](const Bond& b) { return b.broken == Broken::no && (b.D_n > 0 || b.D_s > 0); });
     met.plastic += last.u_p < 0;
     met.pressed_again += last.broken == Broken::tension && std::ranges::any_of(path, [](const Bond& b) {
                            return b.broken == Broken::tension && b.normal_force < 0;
@@ -506,9 +587,11 @@ Met hold_random(Parameters p, std::uint64_t seed) {
         const double scale = std::max(p.LCS[0], p.tau_f) * b.area;
         const double miss = norm(o.force - Vec3{b.normal_force, b.shear_force.y, b.shear_force.z}) / scale;
         force = miss <= force ? force : miss;
-        double far = std::max(norm(o.history.shear - b.F_s) / scale, std::abs(o.history.plastic_stretch - b.u_p) / b.d0);
+        double far = std::max(norm(o.history.shear - b.F_s) / scale,
+                              std::abs(o.history.plastic_stretch - b.u_p) / b.d0);
         if (features.breakage)
-          far = std::max({far, std::abs(o.history.damage_normal - b.D_n), std::abs(o.history.damage_shear - b.D_s)});
+          far = std::max(
+              {far, std::abs(o.history.damage_normal - b.D_n), std::abs(o.history.damage_shear - b.D_s)});
         history = far <= history ? history : far;
       }
     INFO(name);
@@ -523,12 +606,14 @@ Met hold_random(Parameters p, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("dempack/random: 300 bonds along random paths of 400 steps as the reference [1e-12 of the strength]") {
+TEST_CASE(
+    "dempack/random: 300 bonds along random paths of 400 steps as the reference [1e-12 of the strength]") {
   for (const auto& [delta_n, delta_s] : {std::pair{0.2, 0.2}, {0.8, 1.5}, {0.0, 0.0}}) {
     Parameters p;
     p.delta_n = delta_n;
     p.delta_s = delta_s;
-    for (const Met& met : {hold_random<uncoupled>(p, 11), hold_random<coupled>(p, 12), hold_random<mohr_coulomb>(p, 13)}) {
+    for (const Met& met :
+         {hold_random<uncoupled>(p, 11), hold_random<coupled>(p, 12), hold_random<mohr_coulomb>(p, 13)}) {
       CHECK(met.tension > 10);
       CHECK(met.shear > 10);
       CHECK(met.intact > 5);
@@ -552,7 +637,8 @@ TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2
   const Bond b = several_bonds(p)[1];
   const DempackLaw law = scene::law(p);
   const double u_l = stretch_limit(p, b), s_l = shear_limit(p, b);
-  const double G_n = 0.5 * p.sigma_t * b.area * u_l * (1 + 0.8), G_s = 0.5 * p.tau_f * b.area * s_l * (1 + 0.6);
+  const double G_n = 0.5 * p.sigma_t * b.area * u_l * (1 + 0.8),
+               G_s = 0.5 * p.tau_f * b.area * s_l * (1 + 0.6);
   const auto run = [&](const Path& path) { return follow<uncoupled, double>(law, {b}, {path})[0]; };
   const BondConstants<double> constants = constants_of_bond(b);
   /// Work by the trapezoid less what the bond says it has stored.
@@ -566,19 +652,26 @@ TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2
     return work - stored_energy(law, constants, out.back().history, b.d0 + path.back().u, false);
   };
   // a kink between two slopes inside a step is worth at most |change of slope| du^2/8
-  const auto off_n = [&](int steps, double far) { return b.k_n * (1 + 2 / 0.8) * std::pow(far / steps, 2) / 8; };
-  const auto off_s = [&](int steps, double far) { return b.k_s * (1 + 2 / 0.6) * std::pow(far / steps, 2) / 8; };
+  const auto off_n = [&](int steps, double far) {
+    return b.k_n * (1 + 2 / 0.8) * std::pow(far / steps, 2) / 8;
+  };
+  const auto off_s = [&](int steps, double far) {
+    return b.k_s * (1 + 2 / 0.6) * std::pow(far / steps, 2) / 8;
+  };
   for (const int steps : {37, 101, 1009, 10007}) {
     CHECK(std::abs(dissipated(along({{2 * u_l}}, steps)) - G_n) < off_n(steps, 2 * u_l) + 1e-10 * G_n);
     CHECK(std::abs(dissipated(along({{0, 2 * s_l}}, steps)) - G_s) < off_s(steps, 2 * s_l) + 1e-10 * G_s);
     // part of the way: the share D of it is gone, the rest is stored, on the branch and unloaded alike
     const double u = 1.4 * u_l, s = 1.3 * s_l;  // D = 1/2
     for (const double back : {1.0, 0.3}) {
-      CHECK(std::abs(dissipated(along({{u}, {back * u}}, steps)) - 0.5 * G_n) < off_n(steps, u) + 1e-10 * G_n);
-      CHECK(std::abs(dissipated(along({{0, 0, s}, {0, 0, back * s}}, steps)) - 0.5 * G_s) < off_s(steps, s) + 1e-10 * G_s);
+      CHECK(std::abs(dissipated(along({{u}, {back * u}}, steps)) - 0.5 * G_n) <
+            off_n(steps, u) + 1e-10 * G_n);
+      CHECK(std::abs(dissipated(along({{0, 0, s}, {0, 0, back * s}}, steps)) - 0.5 * G_s) <
+            off_s(steps, s) + 1e-10 * G_s);
     }
     // under pressure: the area between branch and Coulomb line is damage, on the line it is friction
-    const double N = 10e6 * b.area, S = p.tau_f * b.area + p.mu1 * N, R = p.mu2 * N, y_l = S / b.k_s, y_end = 2 * y_l;
+    const double N = 10e6 * b.area, S = p.tau_f * b.area + p.mu1 * N, R = p.mu2 * N, y_l = S / b.k_s,
+                 y_end = 2 * y_l;
     Path path = along({{-N / b.k_n, 0}, {-N / b.k_n, y_end}}, steps);
     path.erase(path.begin(), path.begin() + steps - 1);
     const double y_r = y_l * (1 + 0.6 * (1 - R / S));
@@ -591,10 +684,13 @@ TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2
   CHECK(stored_energy(slippery, constants, {}, b.d0 + 0.5 * u_l, false) ==
         doctest::Approx(0.125 * b.k_n * u_l * u_l).epsilon(1e-9));
   // elastic in all directions: nothing is lost
-  CHECK(std::abs(dissipated(along({{0.9 * u_l, 0.5 * s_l, 0.5 * s_l}, {-u_l, -0.3 * s_l}}, 40))) < 1e-12 * G_s);
+  CHECK(std::abs(dissipated(along({{0.9 * u_l, 0.5 * s_l, 0.5 * s_l}, {-u_l, -0.3 * s_l}}, 40))) <
+        1e-12 * G_s);
 }
 
-TEST_CASE("dempack/padding: bonds without area and stiffness give exact zeros beside bonds in any state [DESIGN: tables]") {
+TEST_CASE(
+    "dempack/padding: bonds without area and stiffness give exact zeros beside bonds in any state [DESIGN: "
+    "tables]") {
   const auto with = [&]<Features features, class R>(R) {
     Parameters p = tough();
     p.criterion = static_cast<ref::Criterion>(features.criterion);
@@ -611,7 +707,8 @@ TEST_CASE("dempack/padding: bonds without area and stiffness give exact zeros be
     bool zero = true, others = false;
     for (std::size_t k = 0; k < bonds.size(); ++k)
       for (const Outcome& o : got[k]) {
-        if (k % 2 == 0) others = others || o.history.damage_normal > 0;
+        if (k % 2 == 0)
+          others = others || o.history.damage_normal > 0;
         else
           zero = zero && o.force == Vec3{} && o.history.shear == Vec3{} && o.history.plastic_stretch == 0 &&
                  o.history.damage_normal == 0 && o.history.damage_shear == 0;

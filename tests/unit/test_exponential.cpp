@@ -100,7 +100,7 @@ TEST_CASE("lanes: exponential() is std::exp from -6 to 6 [rel 1e-14] and 1 at 0 
 }
 
 TEST_CASE(
-    "exponential law: the envelope, from the elastic part over the falling secant to its rise [MODEL 5, "
+    "exponential law: the envelope - from the elastic part over the falling secant to its rise [MODEL 5 "
     "1e-12]") {
   const Set s;
   const auto bonds = several_bonds(s);
@@ -125,7 +125,7 @@ TEST_CASE(
   });
 }
 
-TEST_CASE("exponential law: no jump in force anywhere, never stiffer than k_n, K2 at most k_n [MODEL 5]") {
+TEST_CASE("exponential law: no jump in force anywhere - never stiffer than k_n - K2 at most k_n [MODEL 5]") {
   const Set s;
   const BondConstants<double> b = several_bonds(s)[0];
   const Path path = ramp(b, {0.2}, 40000);
@@ -167,8 +167,8 @@ TEST_CASE("exponential law: no jump in force anywhere, never stiffer than k_n, K
 }
 
 TEST_CASE(
-    "exponential law: unloading with k_n through u_p, tension from there, reloading to the envelope [MODEL "
-    "5, 1e-12]") {
+    "exponential law: unloading with k_n through u_p - tension from there - reloading to the envelope [MODEL "
+    "5 1e-12]") {
   for (const double delta : {0.0, 0.5}) {
     Set s;
     s.delta_n = delta;
@@ -208,7 +208,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "exponential law: shear strength C A - F_n tan phi for either sign of F_n, then N tan phi_c [MODEL 5, "
+    "exponential law: shear strength C A - F_n tan phi for either sign of F_n - then N tan phi_c [MODEL 5 "
     "1e-12]") {
   const Set s;
   const auto bonds = several_bonds(s);

@@ -39,7 +39,7 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
   }
 }
 
-TEST_CASE("gauges: of a standing disc and of a rectangle in a plane the widening along x alone [MODEL 10, 1e-14]") {
+TEST_CASE("gauges: of a standing disc and of a rectangle in a plane the widening along x alone [MODEL 10 1e-14]") {
   for (const bool disc : {true, false}) {
     Assembly a = assemble(scene::small_packing(400), scene::small_cylinder(), {}, Features{}, 1);
     if (disc)

@@ -51,7 +51,8 @@ TEST_CASE("padding: no force while bonds of the same batch are damaged, pulled, 
       REQUIRE(w.bonds.padded == 8);
       const double limit = w.material.tensile_strength / w.material.young_modulus * gap;
       for (const double stretch : {1.1 * limit, -100 * limit, 3 * limit}) {
-        const std::size_t last = w.bonds.row_hi[w.bonds.size - 1];  // the padding has the ends of the last bond
+        const std::size_t last =
+            w.bonds.row_hi[w.bonds.size - 1];  // the padding has the ends of the last bond
         w.particles.position[last] = w.particles.reference_position[last] + Vec3{0.3 * limit, 0, stretch};
         advance(w);
         CHECK(all_finite(w));

@@ -8,7 +8,8 @@ using namespace breccia;
 namespace {
 
 Reading reading(int step) {
-  return {1e-3 * step, 1e-5 * step, 2e-5 * step, 1e6 * step, 3e4 * step, -1e-6 * step, 4e-6 * step, 7.0 * step};
+  return {1e-3 * step, 1e-5 * step,  2e-5 * step, 1e6 * step,
+          3e4 * step,  -1e-6 * step, 4e-6 * step, 7.0 * step};
 }
 
 /// Steps 1 ... n, what is known at a row's end counting the steps.
@@ -29,7 +30,8 @@ Recorder record(std::size_t capacity, std::size_t steps_per_row, int steps) {
 
 }  // namespace
 
-TEST_CASE("recorder: a row is the mean of its steps, counts and energies are those at its end [exact means]") {
+TEST_CASE(
+    "recorder: a row is the mean of its steps, counts and energies are those at its end [exact means]") {
   const Recorder r = record(2000, 16, 160);
   REQUIRE(r.rows.size() == 10);
   REQUIRE(r.mismatch.size() == 10);
@@ -50,7 +52,9 @@ TEST_CASE("recorder: a row is the mean of its steps, counts and energies are tho
   CHECK(record(2000, 16, 15).rows.empty());
 }
 
-TEST_CASE("recorder: merged rows are the means of twice the steps, there are half to all of the capacity [exact means]") {
+TEST_CASE(
+    "recorder: merged rows are the means of twice the steps, there are half to all of the capacity [exact "
+    "means]") {
   const Recorder r = record(40, 4, 4 * 40 * 2 + 3 * 16);  // merged twice, then 3 rows of 16
   CHECK(r.steps_per_row == 16);
   REQUIRE(r.rows.size() == 20 + 3);

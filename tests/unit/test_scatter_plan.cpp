@@ -34,7 +34,9 @@ Network network(std::size_t particles, std::size_t bonds, const Features& featur
   }
   std::vector<std::pair<Row, Row>> ends;
   while (ends.size() < bonds) {
-    const Row a = any(random), b = ends.size() % 10 ? std::min<Row>(a + near(random), static_cast<Row>(particles - 1)) : any(random);
+    const Row a = any(random), b = ends.size() % 10
+                                       ? std::min<Row>(a + near(random), static_cast<Row>(particles - 1))
+                                       : any(random);
     if (a != b) ends.emplace_back(std::min(a, b), std::max(a, b));
   }
   std::sort(ends.begin(), ends.end());
@@ -108,7 +110,8 @@ double difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 }  // namespace
 
-TEST_CASE("scatter: every way and 1, 2, 3, 5, 8 ranges give the serial sums [some 20 addends of size 1: 1e-14]") {
+TEST_CASE(
+    "scatter: every way and 1, 2, 3, 5, 8 ranges give the serial sums [some 20 addends of size 1: 1e-14]") {
   for (const Features& features : {spinning, plain}) {
     Network n = network(700, 4096 + 8, features);
     const Sums want = serial(n);
@@ -126,11 +129,14 @@ TEST_CASE("scatter: more ranges than batches, and a batch of one, as for contact
   Network n = network(40, 24, spinning);
   const Sums want = serial(n);
   for (const ScatterKind kind : {ScatterKind::atomic, ScatterKind::private_sums, ScatterKind::gather})
-    for (const auto& [ranges, batch] : {std::pair{8, std::size_t{8}}, {5, std::size_t{1}}, {30, std::size_t{1}}})
+    for (const auto& [ranges, batch] :
+         {std::pair{8, std::size_t{8}}, {5, std::size_t{1}}, {30, std::size_t{1}}})
       CHECK(difference(sums_of(n, kind, ranges, batch).force, want.force) < 1e-14);
 }
 
-TEST_CASE("scatter: gather gives the same bits for any number of ranges, private the same bits from run to run [equal]") {
+TEST_CASE(
+    "scatter: gather gives the same bits for any number of ranges, private the same bits from run to run "
+    "[equal]") {
   Network n = network(3000, 16000, spinning);
   const Sums one = sums_of(n, ScatterKind::gather, 1);
   for (const int ranges : {2, 3, 5, 8}) CHECK(sums_of(n, ScatterKind::gather, ranges) == one);
@@ -140,10 +146,13 @@ TEST_CASE("scatter: gather gives the same bits for any number of ranges, private
   }
 }
 
-TEST_CASE("scatter: ranges cover all bonds once, at multiples of the batch, own rows are touched by one range [exact]") {
+TEST_CASE(
+    "scatter: ranges cover all bonds once, at multiples of the batch, own rows are touched by one range "
+    "[exact]") {
   Network n = network(700, 4096 + 8, spinning);
   for (const int ranges : {1, 2, 3, 5, 8}) {
-    const ScatterPlan plan = plan_scatter(ScatterKind::private_sums, ranges, 8, n.lo, n.hi, n.gid_lo, n.gid_hi, 700, true);
+    const ScatterPlan plan =
+        plan_scatter(ScatterKind::private_sums, ranges, 8, n.lo, n.hi, n.gid_lo, n.gid_hi, 700, true);
     CHECK(plan.first(0) == 0);
     CHECK(plan.first(ranges) == n.bonds);
     std::vector<int> toucher(700 + plan.slot_count, -1);
@@ -160,7 +169,8 @@ TEST_CASE("scatter: ranges cover all bonds once, at multiples of the batch, own 
     CHECK(starts_right);
     CHECK((ranges == 1 || plan.slot_count > 0));
     // with atomics: a row without the mark is touched from one range only
-    const ScatterPlan atomic = plan_scatter(ScatterKind::atomic, ranges, 8, n.lo, n.hi, n.gid_lo, n.gid_hi, 700, true);
+    const ScatterPlan atomic =
+        plan_scatter(ScatterKind::atomic, ranges, 8, n.lo, n.hi, n.gid_lo, n.gid_hi, 700, true);
     std::vector<int> plain_toucher(700, -1);
     std::size_t marked = 0;
     bool unmarked_alone = true;

@@ -20,7 +20,9 @@ std::vector<std::size_t> order_of(const std::vector<std::uint64_t>& keys) {
 
 }  // namespace
 
-TEST_CASE("space curve: through an 8 x 8 x 8 grid it visits each cell once and steps to a face neighbour [Skilling, exact]") {
+TEST_CASE(
+    "space curve: through an 8 x 8 x 8 grid it visits each cell once and steps to a face neighbour "
+    "[Skilling, exact]") {
   std::vector<Vec3> points;
   for (int x = 0; x < 8; ++x)
     for (int y = 0; y < 8; ++y)
@@ -36,7 +38,9 @@ TEST_CASE("space curve: through an 8 x 8 x 8 grid it visits each cell once and s
   CHECK(neighbours == 511);
 }
 
-TEST_CASE("space curve: neighbours in order are neighbours in space: mean step 1.6 spacings at most, keys are a permutation") {
+TEST_CASE(
+    "space curve: neighbours in order are neighbours in space: mean step 1.6 spacings at most, keys are a "
+    "permutation") {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> in(-1, 1);
   std::vector<Vec3> points;
@@ -62,7 +66,8 @@ TEST_CASE("space curve: shifted and scaled points keep their order [exact powers
   std::mt19937_64 random(9);
   std::uniform_int_distribution<int> cell(0, 1023);
   std::vector<Vec3> points{{0, 0, 0}, {1023, 1023, 1023}}, other;
-  for (int k = 0; k < 500; ++k) points.push_back({double(cell(random)), double(cell(random)), double(cell(random))});
+  for (int k = 0; k < 500; ++k)
+    points.push_back({double(cell(random)), double(cell(random)), double(cell(random))});
   for (const Vec3& p : points) other.push_back(0.25 * p + Vec3{-64, 8, 32});
   CHECK(hilbert_keys(other) == hilbert_keys(points));
 }

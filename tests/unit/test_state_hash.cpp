@@ -6,7 +6,7 @@
 
 using namespace breccia;
 
-TEST_CASE("state hash: 16 hex digits, one bit of any identity, history or state column changes it, scratch and reference and derived do not") {
+TEST_CASE("state hash: 16 hex digits - one bit of any identity - history or state column changes it - scratch and reference and derived do not") {
   Assembly a = assemble(scene::small_packing(150), scene::small_cylinder(), {}, Features{}, 1);
   const auto fill = [](auto& table) {  // also what this scene does not need
     table.for_each_column([&](const ColumnInfo&, auto& column) { column.resize(table.padded); });

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double confinement = 4e6;
 
-/// Deviator: 30 GPa to 20 MPa, then 15 GPa to 40 MPa at strain 0.002, then down. Radial -0.2, then -0.5 of the axial.
+/// Deviator: 30 GPa to 20 MPa, then 15 GPa to 40 MPa at strain 0.002, then down. Radial -0.2, then -0.5 of
+/// the axial.
 double deviator_at(double e) {
   const double knee = 20e6 / 30e9, top = knee + 20e6 / 15e9;
   if (e < knee) return 30e9 * e;
@@ -26,7 +27,8 @@ std::vector<CurveRow> curve(double last, int rows = 1000) {
     r.axial_strain = last * k / rows;
     r.axial_stress_Pa = confinement + deviator_at(r.axial_strain);
     r.confining_stress_Pa = confinement;
-    r.radial_strain = r.axial_strain < 0.001 ? -0.2 * r.axial_strain : -0.2e-3 - 0.8 * (r.axial_strain - 0.001);
+    r.radial_strain =
+        r.axial_strain < 0.001 ? -0.2 * r.axial_strain : -0.2e-3 - 0.8 * (r.axial_strain - 0.001);
     r.volumetric_strain = r.axial_strain + 2 * r.radial_strain;
     r.broken_tension = r.axial_strain > 0.0008 ? std::floor(1e5 * (r.axial_strain - 0.0008)) : 0;
     r.broken_shear = 0;
@@ -45,7 +47,8 @@ std::vector<double> mismatch(const std::vector<CurveRow>& rows) {
 
 }  // namespace
 
-TEST_CASE("strength: peak, moduli, Poisson's ratio of a curve of two slopes [DESIGN summary.json, rel 1e-9]") {
+TEST_CASE(
+    "strength: peak, moduli, Poisson's ratio of a curve of two slopes [DESIGN summary.json, rel 1e-9]") {
   const auto rows = curve(0.003);
   const auto f = read_curve(rows, mismatch(rows));
   CHECK(f.peak_deviator == doctest::Approx(40e6).epsilon(1e-3));  // rows are 3e-6 of strain apart
@@ -58,7 +61,8 @@ TEST_CASE("strength: peak, moduli, Poisson's ratio of a curve of two slopes [DES
   CHECK(f.young_modulus_50.value() > 15e9);
   CHECK(f.young_modulus_50.value() < 30e9);
   // 120 broken at the peak: 1 % of it are 2 bonds, at strain 0.00082
-  CHECK(f.crack_initiation_stress.value() == doctest::Approx(confinement + deviator_at(0.00082)).epsilon(2e-3));
+  CHECK(f.crack_initiation_stress.value() ==
+        doctest::Approx(confinement + deviator_at(0.00082)).epsilon(2e-3));
   // the volume turns where the radial strain becomes steeper than half the axial
   CHECK(f.crack_damage_stress.value() == doctest::Approx(confinement + deviator_at(0.001)).epsilon(2e-3));
   CHECK(f.kinetic_ratio == doctest::Approx(1e-4).epsilon(2e-3));  // not the 0.5 before half the peak
@@ -91,7 +95,9 @@ TEST_CASE("strength: a rising part that dips uses the last way up to the peak [e
   CHECK(f.young_modulus.value() == doctest::Approx(30e9).epsilon(1e-9));
 }
 
-TEST_CASE("strength: Mohr-Coulomb through peaks that lie on a line, and off it [sigma_1 = q + N sigma_3, rel 1e-12]") {
+TEST_CASE(
+    "strength: Mohr-Coulomb through peaks that lie on a line, and off it [sigma_1 = q + N sigma_3, rel "
+    "1e-12]") {
   const double phi = 35 * std::numbers::pi / 180, c = 8e6;
   const double N = (1 + std::sin(phi)) / (1 - std::sin(phi)), q = 2 * c * std::cos(phi) / (1 - std::sin(phi));
   const std::vector<double> p{0, 4.5e6, 9e6, 30e6};
@@ -103,7 +109,8 @@ TEST_CASE("strength: Mohr-Coulomb through peaks that lie on a line, and off it [
   CHECK(fit.residual_Pa < 1e-6);
   CHECK(fit.peaks == 4);
 
-  const std::vector<double> square{0, 0, 2e6, 2e6}, off{10e6, 12e6, 20e6, 22e6};  // line 11 + 5 p, all 1 MPa off
+  const std::vector<double> square{0, 0, 2e6, 2e6},
+      off{10e6, 12e6, 20e6, 22e6};  // line 11 + 5 p, all 1 MPa off
   const auto rough = fit_mohr_coulomb(square, off).value();
   CHECK(rough.residual_Pa == doctest::Approx(1e6).epsilon(1e-12));
   CHECK(rough.cohesion_Pa == doctest::Approx(11e6 / (2 * std::sqrt(5.0))).epsilon(1e-12));
@@ -135,10 +142,11 @@ std::vector<CurveRow> through(const std::vector<std::pair<double, double>>& corn
 
 }  // namespace
 
-TEST_CASE("strength: cycles: moduli down and up and the strain that stays, of straight pieces [rel 1e-9]") {
+TEST_CASE("strength: cycles: moduli down and up and the strain that stays - of straight pieces [rel 1e-9]") {
   // up to 40 MPa at 0.002; down at 25 GPa to 4 MPa; up at 24 GPa to 40 MPa; on to 44 MPa at 0.003; again
   const double down = 0.002 - 36e6 / 25e9, up = down + 36e6 / 24e9, down2 = 0.003 - 39.6e6 / 20e9;
-  const auto rows = through({{0.002, 40e6}, {down, 4e6}, {up, 40e6}, {0.003, 44e6}, {down2, 4.4e6}, {0.0035, 45e6}});
+  const auto rows =
+      through({{0.002, 40e6}, {down, 4e6}, {up, 40e6}, {0.003, 44e6}, {down2, 4.4e6}, {0.0035, 45e6}});
   const std::vector<std::pair<double, double>> times{{0.1, 0.2}, {0.4, 0.5}};
   const auto cycles = read_cycles(rows, times);
   REQUIRE(cycles.size() == 2);
@@ -158,8 +166,12 @@ TEST_CASE("strength: cycles: moduli down and up and the strain that stays, of st
 
 TEST_CASE("strength: the first drop of 5 % is not the small one before nor the larger peak behind [exact]") {
   // 10 MPa, down 4 %, 12 MPa, down 8 %, 20 MPa, down 50 %: of the deviator plus 4 MPa
-  const auto rows = through({{0.001, 10e6}, {0.0011, 0.96 * 14e6 - confinement}, {0.0012, 12e6},
-                             {0.0013, 0.92 * 16e6 - confinement}, {0.002, 20e6}, {0.003, 8e6}});
+  const auto rows = through({{0.001, 10e6},
+                             {0.0011, 0.96 * 14e6 - confinement},
+                             {0.0012, 12e6},
+                             {0.0013, 0.92 * 16e6 - confinement},
+                             {0.002, 20e6},
+                             {0.003, 8e6}});
   CHECK(stress_at_first_drop(rows, 0.05).value() == 16e6);
   CHECK(stress_at_first_drop(rows, 0.03).value() == 14e6);
   CHECK(stress_at_first_drop(rows, 0.10).value() == 24e6);
@@ -167,11 +179,13 @@ TEST_CASE("strength: the first drop of 5 % is not the small one before nor the l
   CHECK(!stress_at_first_drop({}, 0.05));
 }
 
-TEST_CASE("strength: bulk modulus: mean stress over volumetric strain between 5 and 25 % of the pressure [rel 1e-12]") {
+TEST_CASE(
+    "strength: bulk modulus: mean stress over volumetric strain between 5 and 25 % of the pressure [rel "
+    "1e-12]") {
   std::vector<CurveRow> rows;
   for (int k = 0; k <= 1000; ++k) {
     CurveRow r;
-    r.confining_stress_Pa = 1e5 * k;     // to 100 MPa
+    r.confining_stress_Pa = 1e5 * k;      // to 100 MPa
     r.axial_stress_Pa = 1.2e5 * k + 1e6;  // the platens feel something else
     const double mean = (r.axial_stress_Pa + 2 * r.confining_stress_Pa) / 3;
     // bedding first, crushing later
@@ -183,7 +197,7 @@ TEST_CASE("strength: bulk modulus: mean stress over volumetric strain between 5 
   CHECK(!bulk_modulus(std::span(rows).first(3)));
 }
 
-TEST_CASE("strength: direct shear: tau = c + sigma tan phi through its strengths, and off it [rel 1e-12]") {
+TEST_CASE("strength: direct shear: tau = c + sigma tan phi through its strengths and off it [rel 1e-12]") {
   const double tan_phi = std::tan(32 * std::numbers::pi / 180);
   const std::vector<double> normal{1e6, 3e6, 10e6};
   std::vector<double> strength;
@@ -193,7 +207,8 @@ TEST_CASE("strength: direct shear: tau = c + sigma tan phi through its strengths
   CHECK(line.cohesion_Pa == doctest::Approx(4e6).epsilon(1e-12));
   CHECK(line.residual_Pa < 1e-6);
   CHECK(line.peaks == 3);
-  const std::vector<double> twice{1e6, 1e6, 3e6, 3e6}, off{5e6, 7e6, 7e6, 9e6};  // 5 MPa + sigma, all 1 MPa off
+  const std::vector<double> twice{1e6, 1e6, 3e6, 3e6},
+      off{5e6, 7e6, 7e6, 9e6};  // 5 MPa + sigma, all 1 MPa off
   const auto rough = fit_shear_line(twice, off).value();
   CHECK(rough.friction_angle_deg == doctest::Approx(45).epsilon(1e-12));
   CHECK(rough.cohesion_Pa == doctest::Approx(5e6).epsilon(1e-12));
