@@ -32,7 +32,7 @@ struct RunSummary {
   std::optional<double>
       strip_corrected_strength_Pa;             ///< bts: times (1 - (b/R)^2)^(3/2), strips of half-width b
   std::optional<double> first_drop_stress_Pa;  ///< bts: the largest stress before it first fell by 5 %
-  std::string first_cracks;                    ///< bts: "central", or "crushed at the strips"
+  std::string first_cracks;                    ///< bts: "central", or "at the strips"
   std::optional<double> bulk_modulus_Pa;       ///< hydrostatic: slope between 5 and 25 % of the pressure
   std::vector<CycleSummary> cycles;
   std::optional<double> alpha;  ///< area factor of the bonds

@@ -75,7 +75,7 @@ void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunS
   const std::size_t first = std::min<std::size_t>(20, cracks.size());
   std::size_t central = 0;
   for (std::size_t k = 0; k < first; ++k) central += std::abs(cracks[k].position.z) < 0.3 * a.body.diameter;
-  run.first_cracks = 2 * central >= first ? "central" : "crushed at the strips";
+  run.first_cracks = 2 * central >= first ? "central" : "at the strips";
 }
 
 /// Under even pressure there is no peak; the answer is a bulk modulus.
