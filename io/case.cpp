@@ -157,12 +157,13 @@ struct Checks {
                        format_quantity(p, dimension::stress)));
   }
 
-  void law(const std::string& name) const {
+  void law(const std::string& name, const std::string& where) const {
     const bool of_bonds = facts_of(name).has("normal_stiffness");
     if (of_bonds && c.bonds.alpha_rule != AlphaRule::number)
       no("bonds.alpha", fmt::format("law {} has stiffnesses of its own, no area to scale; leave it out", quote(name)));
     if (of_bonds && c.specimen.space != Space::plane)
-      no("material.law", fmt::format("law {} is one of discs; set specimen.dimensions = 2", quote(name)));
+      refuse(where, "material.law",
+             fmt::format("law {} is one of discs; set specimen.dimensions = 2", quote(name)));
   }
 
   /// A [[material.at]] that no run uses is a slip of the pen, unless --set has chosen other confinements.
@@ -234,7 +235,8 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
     layers.preset = std::move(source.layer);
     if (source.at) layers.preset_at = std::move(*source.at);
   }
-  const std::string law = law_of(material_base(layers));
+  const Layer base = material_base(layers);
+  const std::string law = law_of(base);
   for (const LawStandard& standard : facts_of(law).standards)
     if (const Key& key = *find_key(standard.key); test != "pack" && !layer.contains(key.name))
       layer[std::string(key.name)] = {read_standard_text(key, standard.value), ""};
@@ -269,10 +271,10 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   }
 
   checks.confinements(layers.given_at);
-  checks.law(law);
   refuse_foreign_keys(layers.given, law);
   refuse_foreign_keys(layers.set, law);
   for (const ConfinementLayer& group : layers.given_at) refuse_foreign_keys(group.layer, law);
+  checks.law(law, base.at("material.law").place);
   std::vector<ConfinementLayer> at;
   for (double confinement : c.test.confinement) {
     Layer material = material_at(layers, confinement);
@@ -280,7 +282,7 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
     if (!find_confinement(at, confinement)) at.push_back({confinement, std::move(material), ""});
   }
   layer.erase("material.preset");  // the resolved case carries the values themselves
-  c.resolved = write_case(layer, material_base(layers), at, test);
+  c.resolved = write_case(layer, base, at, test);
   return c;
 }
 

@@ -232,7 +232,6 @@ constexpr std::array keys{
     Key{.name = "material.law",
         .kind = Kind::word,
         .standard = "dempack",
-        .words = "dempack exponential kdem contact-bond",
         .later = "parallel-bond",
         .meaning = "of the bonds",
         .store_material = [](M& m, const R& r) { m.law = r.word; }},
@@ -477,7 +476,7 @@ std::vector<Key> keys_of_laws() {
                       : parameter.unit == "N" ? dimension::force
                       : parameter.unit == "Pa" ? dimension::stress
                                                : dimension::number;
-      key.range = at_least(parameter.low);
+      key.range = parameter.above ? more_than(parameter.low) : at_least(parameter.low);
       key.law = law.name;
       key.meaning = names.emplace_back(fmt::format("law {}: {}", law.name, parameter.meaning));
       own.push_back(key);
@@ -492,6 +491,9 @@ std::span<const Key> all_keys() {
   static const std::vector<Key> all = [] {
     std::vector<Key> list(keys.begin(), keys.end());
     const auto after = std::find_if(list.begin(), list.end(), [](const Key& k) { return k.name == "material.criterion"; });
+    static std::string laws;  // the words of material.law are the laws that there are
+    for_each_law([](const auto& law) { laws += fmt::format("{}{}", laws.empty() ? "" : " ", law.name); });
+    std::find_if(list.begin(), list.end(), [](const Key& k) { return k.name == "material.law"; })->words = laws;
     const auto own = keys_of_laws();
     list.insert(after + 1, own.begin(), own.end());
     return list;

@@ -107,7 +107,7 @@ struct Walker {
       for (const auto& [word, child] : *table) {
         if (word == "confinement")
           group.confinement = read_value(at_confinement, child).number, group.place = child.place;
-        else if (word == "preset" || word == "at")
+        else if (word == "preset" || word == "at" || word == "law" || word == "criterion")
           refuse(child.place, name + "." + word, "not for one confinement; it belongs to the whole material");
         else
           others.emplace_back(word, child);

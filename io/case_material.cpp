@@ -10,6 +10,16 @@
 namespace breccia {
 namespace {
 
+constexpr std::string_view material_prefix = "material.";
+
+/// A key of some law, but not of this one; density and the like belong to every material.
+bool is_foreign(std::string_view name, const LawFacts& facts) {
+  const std::string_view key = name.substr(material_prefix.size());
+  bool of_a_law = false;
+  for_each_law([&]<class Law>(const Law&) { of_a_law = of_a_law || facts_of(Law::name).has(key); });
+  return of_a_law && !facts.has(key);
+}
+
 std::vector<std::filesystem::path> material_folders(const std::filesystem::path& case_folder) {
   std::vector<std::filesystem::path> folders{case_folder / "materials", case_folder / ".." / "materials"};
   if (const char* data = std::getenv("BRECCIA_DATA"); data && *data)
@@ -29,6 +39,17 @@ std::vector<std::string> presets_in(const std::vector<std::filesystem::path>& fo
   return names;
 }
 
+/// Keys of other laws, that a preset may have, leave; what the law has for itself takes its defaults.
+void fit_to_law(Layer& material) {
+  const LawFacts& facts = facts_of(law_of(material));
+  std::erase_if(material, [&](const auto& entry) { return is_foreign(entry.first, facts); });
+  for (const LawParameter& own : facts.own) {
+    const Key& key = *find_key(std::string("material.") + std::string(own.key));
+    if (!own.standard.empty() && !material.contains(key.name))
+      material[std::string(key.name)] = {read_standard_text(key, own.standard), ""};
+  }
+}
+
 /// `low`, then what stands for one confinement, then the rest.
 Layer laid(const MaterialLayers& m, const Layer* preset_at, const Layer* given_at) {
   Layer result = m.preset;
@@ -39,6 +60,7 @@ Layer laid(const MaterialLayers& m, const Layer* preset_at, const Layer* given_a
   result.erase("material.preset");
   for (const char* name : {"material.law", "material.criterion"})
     if (!result.contains(name)) result[name] = {read_standard(*find_key(name), ""), ""};
+  fit_to_law(result);
   return result;
 }
 
@@ -99,13 +121,10 @@ std::string law_of(const Layer& material) {
 
 void refuse_foreign_keys(const Layer& given, const std::string& law) {
   const LawFacts& facts = facts_of(law);
-  for (const auto& [name, value] : given) {
-    const std::string_view key = std::string_view(name).substr(std::string_view("material.").size());
-    bool of_a_law = false;  // density and the like belong to every material
-    for_each_law([&]<class Law>(const Law&) { of_a_law = of_a_law || facts_of(Law::name).has(key); });
-    if (of_a_law && !facts.has(key))
-      refuse(value.place, name, fmt::format("law {} has no {}; leave it out", quote(law), key));
-  }
+  for (const auto& [name, value] : given)
+    if (is_foreign(name, facts))
+      refuse(value.place, name,
+             fmt::format("law {} has no {}; leave it out", quote(law), name.substr(material_prefix.size())));
 }
 
 Material make_material(const Layer& layer, const FeatureCase& features, Elasticity elasticity,
@@ -140,14 +159,11 @@ Material make_material(const Layer& layer, const FeatureCase& features, Elastici
     need_of_law("damage_shear", "fracture_energy_shear", "breakage");
   }
   Material material;
-  for (const LawParameter& own : law.own) {
-    if (!own.standard.empty()) material.own[std::string(own.key)] = std::stod(std::string(own.standard));
-    else need(std::string(own.key).c_str());
-  }
+  for (const LawParameter& own : law.own) need(std::string(own.key).c_str());
   for (const auto& [name, given] : layer) {
     const Key* key = find_key(name);
     if (!key) continue;
-    const std::string_view word = key->name.substr(std::string_view("material.").size());
+    const std::string_view word = key->name.substr(material_prefix.size());
     if (key->store_material)
       key->store_material(material, given.reading);
     else if (key->law == law.name)

@@ -170,6 +170,8 @@ Reading read_standard_text(const Key& key, std::string_view standard) {
   if (key.kind == Kind::word_or_number && text.find_first_not_of("0123456789.") == std::string::npos)
     node.value = std::stod(text);
   if (key.kind == Kind::whole_number) node.value = std::int64_t{std::stoll(text)};
+  if (key.kind == Kind::word_or_number && !contains(split_words(key.words), text))
+    node.value = std::stod(text);
   return read_value(key, node);
 }
 

@@ -37,12 +37,26 @@ void warn_if_dynamic(const CurveFindings& f, RunSummary& run) {
         100 * f.platen_mismatch));
 }
 
-/// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the lid's pressure.
+/// Moduli are those of the first loading: a way up to the peak that was unloaded is no straight line.
+void read_moduli_before(double unloaded, std::span<const CurveRow> rows, std::span<const double> mismatch,
+                        CurveFindings& f) {
+  std::size_t count = 0;
+  while (count < rows.size() && rows[count].time_s < unloaded) ++count;
+  const CurveFindings first = read_curve(rows.first(count), mismatch.first(count));
+  f.young_modulus = first.young_modulus;
+  f.poisson_ratio = first.poisson_ratio;
+  f.young_modulus_50 = {};  // half the peak may lie beyond that loading
+}
+
+/// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the lid's
+/// pressure.
 CurveFindings findings(const std::string& test, const LoadResult& result) {
   std::vector<CurveRow> rows = result.record.rows;
   if (test == "shear")
     for (CurveRow& row : rows) row.confining_stress_Pa = 0;
   CurveFindings f = read_curve(rows, result.record.mismatch);
+  if (!result.cycles.empty())
+    read_moduli_before(result.cycles.front().unloaded, rows, result.record.mismatch, f);
   if (test == "shear") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};
   if (test == "bts") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = f.crack_damage_stress = {};
   return f;
@@ -52,7 +66,8 @@ CurveFindings findings(const std::string& test, const LoadResult& result) {
 void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunSummary& run) {
   run.tensile_strength_Pa = run.peak_stress_Pa;
   constexpr double strip = 0.15;  // half-width over radius
-  if (run.peak_stress_Pa) run.strip_corrected_strength_Pa = *run.peak_stress_Pa * std::pow(1 - strip * strip, 1.5);
+  if (run.peak_stress_Pa)
+    run.strip_corrected_strength_Pa = *run.peak_stress_Pa * std::pow(1 - strip * strip, 1.5);
   run.first_drop_stress_Pa = stress_at_first_drop(result.record.rows, 0.05);
   const auto& cracks = w.cracks.cracks;
   if (cracks.empty()) return;
@@ -65,10 +80,11 @@ void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunS
 /// Under even pressure there is no peak; the answer is a bulk modulus.
 void forget_the_peak(const LoadResult& result, RunSummary& run) {
   run.peak_reached = false;
-  run.peak_deviator_Pa = run.strain_at_peak = run.young_modulus_Pa = run.young_modulus_50_Pa = run.poisson_ratio =
-      run.crack_damage_stress_Pa = run.kinetic_ratio = run.platen_mismatch = {};
+  run.peak_deviator_Pa = run.strain_at_peak = run.young_modulus_Pa = run.young_modulus_50_Pa =
+      run.poisson_ratio = run.crack_damage_stress_Pa = run.kinetic_ratio = run.platen_mismatch = {};
   run.peak_stress_Pa = 0;
-  for (const CurveRow& row : result.record.rows) run.peak_stress_Pa = std::max(*run.peak_stress_Pa, row.axial_stress_Pa);
+  for (const CurveRow& row : result.record.rows)
+    run.peak_stress_Pa = std::max(*run.peak_stress_Pa, row.axial_stress_Pa);
   run.bulk_modulus_Pa = bulk_modulus(result.record.rows);
 }
 
@@ -120,7 +136,8 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   for (const Cycle& c : result.cycles) cycles.emplace_back(c.unloaded, c.reloaded);
   run.cycles = read_cycles(result.record.rows, cycles);
   if (w.cracks.missed > 0)
-    run.warnings.push_back(fmt::format("{} bonds broke in steps that broke too many at once to record each", w.cracks.missed));
+    run.warnings.push_back(
+        fmt::format("{} bonds broke in steps that broke too many at once to record each", w.cracks.missed));
   if (load.loading == Loading::hydrostatic) {
     forget_the_peak(result, run);
     return run;
@@ -136,7 +153,8 @@ void fit_peaks(SeriesSummary& series) {
     confinement.push_back(run.confinement_Pa);
     peak.push_back(*run.peak_stress_Pa);
   }
-  series.mohr_coulomb = series.test == "shear" ? fit_shear_line(confinement, peak) : fit_mohr_coulomb(confinement, peak);
+  series.mohr_coulomb =
+      series.test == "shear" ? fit_shear_line(confinement, peak) : fit_mohr_coulomb(confinement, peak);
 }
 
 }  // namespace breccia

@@ -22,6 +22,7 @@ struct LawParameter {
   double low = 0;              ///< smallest value that makes sense
   std::string_view standard;   ///< default as one writes it; empty: must be given
   std::string_view meaning;
+  bool above = false;  ///< low itself makes no sense
 };
 
 /// What a case gets where it does not say otherwise.

@@ -13,10 +13,11 @@ struct ContactBondLaw {
   static constexpr std::string_view name = "contact-bond";
   static constexpr std::string_view takes = "friction_dynamic";
   static constexpr std::array own{
-      LawParameter{"normal_stiffness", "N/m", 0.0, "", "k_n of a bond; of discs per metre of their thickness"},
+      LawParameter{"normal_stiffness", "N/m", 0.0, "", "k_n of a bond; of discs per metre of their thickness",
+                   true},
       LawParameter{"shear_stiffness", "N/m", 0.0, "", "k_s of a bond"},
-      LawParameter{"normal_strength", "N", 0.0, "", "n_b: tension that breaks a bond"},
-      LawParameter{"bond_shear_strength", "N", 0.0, "", "s_b: shear force that breaks a bond"},
+      LawParameter{"normal_strength", "N", 0.0, "", "n_b: tension that breaks a bond", true},
+      LawParameter{"bond_shear_strength", "N", 0.0, "", "s_b: shear force that breaks a bond", true},
   };
   static constexpr std::array standards{LawStandard{"bonds.alpha", "1"}};
   static constexpr std::array feature_sets{Features{.plasticity = false}};

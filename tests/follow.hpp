@@ -1,5 +1,5 @@
-// One bond along a prescribed path, as the production loop runs it: one number at a time, and in wide registers
-// whose lanes carry different bonds.
+// One bond along a prescribed path, as the production loop runs it: one number at a time, and in wide
+// registers whose lanes carry different bonds.
 #pragma once
 #include <experimental/simd>
 #include <vector>
@@ -44,8 +44,8 @@ struct Outcome {
   BondHistory<double> history;
 };
 
-/// Bonds along their paths, as many at once as R has lanes; a path that is shorter than others stands still at its
-/// end.
+/// Bonds along their paths, as many at once as R has lanes; a path that is shorter than others stands still
+/// at its end.
 template <Features features, class R, class Law>
 std::vector<std::vector<Outcome>> follow(const Law& law, const std::vector<BondConstants<double>>& bonds,
                                          const std::vector<Path>& paths) {
@@ -63,7 +63,9 @@ std::vector<std::vector<Outcome>> follow(const Law& law, const std::vector<BondC
     std::size_t longest = 0;
     for (std::size_t k = 0; k < lanes<R>(); ++k) longest = std::max(longest, paths[item(k)].size());
     for (std::size_t step = 0; step < longest; ++step) {
-      const auto now = [&](std::size_t k) { return paths[item(k)][std::min(step, paths[item(k)].size() - 1)]; };
+      const auto now = [&](std::size_t k) {
+        return paths[item(k)][std::min(step, paths[item(k)].size() - 1)];
+      };
       const auto before = [&](std::size_t k) {
         return step == 0 ? PathPoint{} : paths[item(k)][std::min(step - 1, paths[item(k)].size() - 1)];
       };

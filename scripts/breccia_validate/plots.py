@@ -1,8 +1,8 @@
 """Pictures of studies, in the look of scripts/plot."""
-from breccia_plot import draw_curves, draw_specimen, read_series
+from breccia_plot import draw_curves, draw_envelope, draw_specimen, read_series
 from breccia_plot.style import INK, SHEAR, SOFT, TENSION, plt, save
 
-__all__ = ["INK", "SHEAR", "SOFT", "TENSION", "curves_of", "new_axes", "plt", "save", "specimen_of"]
+__all__ = ["INK", "SHEAR", "SOFT", "TENSION", "curves_of", "envelope_of", "new_axes", "plt", "save", "specimen_of"]
 
 
 def new_axes(title, xlabel, ylabel, width=7, height=4.6):
@@ -15,6 +15,12 @@ def new_axes(title, xlabel, ylabel, width=7, height=4.6):
 def curves_of(result, path):
     """The stress-strain curves that scripts/plot draws; gives the picture's name."""
     draw_curves(read_series(result.folder), path)
+    return path.name
+
+
+def envelope_of(result, path):
+    """Mohr circles of the peaks and the line through them; gives the picture's name."""
+    draw_envelope(read_series(result.folder), path)
     return path.name
 
 

@@ -90,7 +90,7 @@ class Runner:
         if case.dry:
             return self.dry_run(study, case)
         folder = self.out / study.name / case.name
-        key_file = folder.with_suffix(".key")
+        key_file, log_file = folder.parent / f"{case.name}.key", folder.parent / f"{case.name}.log"
         key = fingerprint(case)
         if not self.again and finished(folder) and key_file.exists() and key_file.read_text() == key:
             return read_result(folder)
@@ -104,11 +104,12 @@ class Runner:
                    "--threads", str(self.threads)]
         for setting in case.set:
             command += ["--set", setting]
+        environment = {**os.environ, "BRECCIA_DATA": str(SOURCE / "data")}  # presets of this source folder
         start = time.monotonic()
-        with folder.with_suffix(".log").open("w") as log:
-            code = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode
+        with log_file.open("w") as log:
+            code = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, env=environment).returncode
         if code or not finished(folder):
-            lines = folder.with_suffix(".log").read_text().strip().splitlines()
+            lines = log_file.read_text().strip().splitlines()
             raise RunFailed(f"{case.name}: exit code {code}: {lines[-1] if lines else 'no message'}")
         key_file.write_text(key)
         print(f"{study.name}/{case.name}: {time.monotonic() - start:.0f} s", flush=True)

@@ -97,6 +97,22 @@ class BadInput(ProgramTest):
         self.refused("case.toml:8", "test.confinement", program="triaxial",
                      case=UCS.replace("[test]", '[test]\nconfinement = ["0 MPa", "-1 MPa"]'))
 
+    def test_law(self):
+        kdem = UCS.replace("[test]", 'law = "kdem"\ndamage_normal = 0.2\n[test]')
+        self.refused("case.toml:8", "material.damage_normal", '"kdem"', "has no damage_normal", case=kdem)
+        self.refused("material.law", '"kdem"', '"coupled"', case=UCS.replace("[test]", 'law = "kdem"\ncriterion = "coupled"\n[test]'))
+        glue = UCS.replace('preset = "concrete"', """density = 2500
+law = "contact-bond"
+friction_dynamic = 0.5
+normal_stiffness = "20 GN/m"
+shear_stiffness = "5 GN/m"
+normal_strength = "8 kN"
+bond_shear_strength = "20 kN"
+[bonds]
+alpha = "auto\"""")
+        self.refused("case.toml:14", "bonds.alpha", '"contact-bond"', case=glue)
+        self.refused("case.toml:7", "material.law", "dimensions", case=glue.replace('[bonds]\nalpha = "auto"\n', ""))
+
     def test_pack(self):
         pack = '[specimen]\ndiameter = "50 mm"\nheight = "100 mm"\npack.spheres = 300\npack.porosity = 1.2\n'
         self.refused("case.toml:5", "specimen.pack.porosity", program="pack", case=pack)

@@ -95,6 +95,16 @@ class Ucs(ProgramTest):
         self.assertEqual(self.read_summary(again)["runs"][0]["state_hash"], self.read_summary()["runs"][0]["state_hash"])
         self.assertEqual((again / "curve-0.csv").read_text(), (self.folder / "curve-0.csv").read_text())
 
+    def test_moduli_of_a_cyclic_test_are_of_the_first_loading(self):
+        out = self.work / "cyclic"
+        result = run("ucs", self.case, "--out", out, "--threads", "1", "--quiet", "--set", "test.unload_at=[0.001, 0.0016]",
+                     "--set", "output.frames=0")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        (summary,) = self.read_summary(out)["runs"]
+        self.assertEqual(len(summary["cycles"]), 2)
+        self.assertAlmostEqual(summary["young_modulus_Pa"] / 28e9, 1, delta=0.03)
+        self.assertIsNone(summary["young_modulus_50_Pa"])
+
     def test_same_bits_for_any_number_of_threads_with_gather(self):
         hashes = set()
         for threads in (1, 2, 3):

@@ -120,6 +120,8 @@ TEST_CASE("triaxial/small: 500 spheres at 9 MPa: stage 1 settles, the pressure i
   CHECK(balance.bonds > 0.95 * balance.least);
   CHECK(balance.bonds < balance.most);
   CHECK(std::ranges::all_of(r.result.record.rows, [](const CurveRow& row) { return row.confining_stress_Pa == 9e6; }));
+  for (const CurveRow& row : r.result.record.rows)
+    CHECK(row.volumetric_strain == doctest::Approx(row.axial_strain + 2 * row.radial_strain).epsilon(1e-9));
   CHECK(f.peak_stress > 9e6 + 1.1 * unconfined().findings.peak_stress);
   CHECK(f.peak_deviator < 3 * unconfined().findings.peak_stress);
 }

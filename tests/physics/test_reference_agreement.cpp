@@ -150,6 +150,47 @@ TEST_CASE("reference: 200 steps on, each bond of the fast code is intact, broken
   CHECK(damage < 1e-8);
 }
 
+TEST_CASE("reference: without rotation nothing spins, also in a kernel that could, and forces are the reference's [rel 1e-10]") {
+  for (const auto criterion : {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb}) {
+    ref::Parameters p;
+    p.criterion = criterion;
+    p.rotation = false;
+    p.alpha = 0.8;
+    p.beta = 0.03;
+    p.damping_translation = p.damping_rotation = 0.1;
+    WorldOptions o = scene::options(p);
+    o.features = scene::features(p);
+    o.safety = 0.4;
+    const Features built = built_features(scene::law(p), o.features);
+    CHECK(built.rotation == (criterion == ref::Criterion::coupled));  // the superset that runs it can turn
+    const Assembly a = assemble(scene::small_packing(100), scene::small_cylinder(), {p.beta, {}, AreaRule::minimum, {}},
+                                built, 1, false);
+    World w = make_world(a, scene::material_of(p), scene::factor(p), o);
+    std::mt19937_64 random(42);
+    std::uniform_real_distribution<double> in(-1, 1);
+    for (std::size_t k = 0; k < w.particles.free; ++k)
+      w.particles.velocity[k] = {10 * in(random), 10 * in(random), 10 * in(random) - 600 * w.particles.position[k].z};
+    scene::drive(w, 30, -30);
+    for (std::size_t k = w.particles.free; k < w.particles.size; ++k)
+      w.particles.velocity[k] = {0, 0, k < w.first_top ? 30.0 : -30.0};
+    ref::World want = scene::to_reference(w, p);
+    REQUIRE(want.bonds.size() == w.bonds.size);
+    for (int k = 0; k < steps; ++k) {
+      advance(w);
+      ref::step(want, w.dt);
+    }
+    ref::compute_forces(want, w.dt);
+    INFO("criterion ", int(criterion));
+    CHECK(count_broken(w).tension > 10);
+    CHECK(count_broken(w).shear > 10);
+    CHECK(w.particles.spin.size() == (built.rotation ? w.particles.size : 0));
+    for (const Vec3& spin : w.particles.spin) CHECK(spin == Vec3{});
+    CHECK(difference(w.particles.velocity, [&](std::size_t k) { return want.particles[k].v; }, w.particles.size) < 1e-10);
+    const scene::Forces f = scene::forces_now(w);
+    CHECK(difference(f.force, [&](std::size_t k) { return want.particles[k].force; }, w.particles.size) < 1e-10);
+  }
+}
+
 TEST_CASE("reference: gather gives the same bits with 1, 2, 3, 5 threads [DESIGN: promises, state hash equal]") {
   for (const auto& [spheres, count] : {std::pair{std::size_t{100}, steps}, {std::size_t{2600}, 60}}) {  // loops beyond bonds are cut above 2048 rows
     std::string want;

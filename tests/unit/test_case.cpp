@@ -349,6 +349,9 @@ TEST_CASE("case: unknown keys, tables and presets are refused with the nearest v
        "c.toml:9: material.delta: unknown key; ");
   says(complaint(good + "[[material.at]]\nconfinement = 0\npreset = \"x\"\n"),
        "c.toml:9: material.at.preset: not for one confinement");
+  for (const std::string line : {"law = \"kdem\"", "criterion = \"coupled\""})  // the tables and kernels are the series'
+    says(complaint(good + "[[material.at]]\nconfinement = 0\n" + line + "\n"),
+         "c.toml:9: material.at." + line.substr(0, line.find(' ')) + ": not for one confinement; it belongs to the whole material");
   says(complaint(good + "nu = 1\n"), "c.toml:7: material.nu: unknown key; valid: \"material.preset\", ");
   says(complaint(pack + "pack.size.kind = 1\n"),
        "c.toml:5: specimen.pack.size: unknown key; did you mean \"specimen.pack.sizes\"?");
@@ -522,6 +525,72 @@ TEST_CASE("case: areas of the bonds, those of the strengths beside them") {
        "c.toml:8: bonds.area: unknown \"voronoy\"; did you mean \"voronoi\"?");
 }
 
+namespace {
+
+const std::string elastic_keys = "density = 2500\nyoung_modulus = \"28 GPa\"\npoisson_ratio = 0.2\n";  // lines 6 to 8
+const std::string kdem = pack + "[material]\n" + elastic_keys +
+                         "friction_dynamic = 0.25\nfriction_static = 0.9\ntensile_strength = \"5 MPa\"\n"
+                         "shear_strength = \"16 MPa\"\nlaw = \"kdem\"\n";  // to line 13
+const std::string glue = pack + "[material]\ndensity = 2500\nlaw = \"contact-bond\"\nfriction_dynamic = 0.5\n"
+                                "normal_stiffness = \"20 GN/m\"\nshear_stiffness = \"5 GN/m\"\n"
+                                "normal_strength = \"8 kN\"\nbond_shear_strength = \"20 kN\"\n";
+
+}  // namespace
+
+TEST_CASE("case: law kdem has polyhedron areas and alpha 1 of its own, which the case may overrule") {
+  const Case c = load(kdem);
+  CHECK(c.bonds.area == AreaRule::polyhedron);
+  CHECK(c.bonds.alpha_rule == AlphaRule::number);
+  CHECK(c.bonds.alpha == 1);
+  CHECK(c.materials.at(0).law == "kdem");
+  CHECK(c.materials[0].own.at("normal_factor") == 1);
+  CHECK(c.materials[0].own.at("shear_factor") == 1);
+  const Case own = load(kdem + "normal_factor = 1.2\n[bonds]\narea = \"voronoi\"\nalpha = \"affine\"\n", "triaxial",
+                        {"material.shear_factor=0.6"});
+  CHECK(own.bonds.area == AreaRule::voronoi);
+  CHECK(own.bonds.alpha_rule == AlphaRule::affine);
+  CHECK(own.materials[0].own.at("normal_factor") == 1.2);
+  CHECK(own.materials[0].own.at("shear_factor") == 0.6);
+  says(complaint(kdem + "damage_normal = 0.1\n"),
+       "c.toml:14: material.damage_normal: law \"kdem\" has no damage_normal; leave it out");
+  says(complaint(kdem, "ucs", {"material.damage_normal=0.1"}),
+       "--set: material.damage_normal: law \"kdem\" has no damage_normal; leave it out");
+  says(complaint(kdem + "hardening_rate = 16\n"), "c.toml:14: material.hardening_rate: law \"kdem\" has no hardening_rate");
+  says(complaint(good + "normal_factor = 1\n"), "c.toml:7: material.normal_factor: law \"dempack\" has no normal_factor");
+}
+
+TEST_CASE("case: what a preset has for another law is left out, of the resolved case too") {
+  const Case c = load(good + "law = \"kdem\"\n", "ucs");  // the preset has delta_n = delta_s = 0.2
+  CHECK(c.materials.at(0).damage_normal == 0);
+  CHECK(c.materials[0].damage_shear == 0);
+  CHECK(c.materials[0].tensile_strength == 5e6);
+  CHECK(load(c.resolved, "ucs").resolved == c.resolved);
+  const Case e = load(good + "law = \"exponential\"\n", "ucs");
+  CHECK(e.materials.at(0).own.at("elastic_strain_limit") == 0.002);
+  CHECK(e.materials[0].own.at("hardening_factor") == 0.2);
+  CHECK(e.materials[0].own.at("hardening_rate") == 16);
+  CHECK(e.materials[0].own.at("hardening_floor") == 0.275);
+  CHECK(e.materials[0].damage_normal == 0.2);
+  CHECK(e.bonds.area == AreaRule::minimum);
+  CHECK(load(e.resolved, "ucs").resolved == e.resolved);
+}
+
+TEST_CASE("case: law contact-bond needs its four constants and two dimensions, and has no area to scale") {
+  says(complaint(glue), "c.toml:7: material.law: law \"contact-bond\" is one of discs; set specimen.dimensions = 2");
+  says(complaint(glue + "[bonds]\nalpha = \"auto\"\n"),
+       "c.toml:14: bonds.alpha: law \"contact-bond\" has stiffnesses of its own, no area to scale; leave it out");
+  says(complaint(glue + "tensile_strength = 1\n"),
+       "c.toml:13: material.tensile_strength: law \"contact-bond\" has no tensile_strength; leave it out");
+  says(complaint(glue + "criterion = \"coupled\"\n"),
+       "c.toml:13: material.criterion: law \"contact-bond\" has no criterion; leave it out");
+  says(complaint(pack + "[material]\nnormal_strength = \"8 kPa\"\n"),
+       "c.toml:6: material.normal_strength: \"8 kPa\" is a stress; a force is wanted");
+  says(complaint(pack + "[material]\nnormal_stiffness = \"1 GPa\"\n"),
+       "c.toml:6: material.normal_stiffness: \"1 GPa\" is a stress; ");
+  says(complaint(pack + "[material]\nlaw = \"contact-bond\"\nnormal_stiffness = 0\n"),
+       "c.toml:7: material.normal_stiffness: must be more than 0 ");
+}
+
 TEST_CASE("case: keys that a test does not know, and bodies that it does not test") {
   const std::string confined = good + "[test]\nconfinement = [0, \"4 MPa\"]\n";
   says(complaint(confined, "bts"),
@@ -691,9 +760,14 @@ TEST_CASE("case: two dimensions: defaults and what does not go together") {
   for (const char* number : {"1", "4"})
     says(complaint(body + "dimensions = " + number + "\npack.spheres = 9\n", "pack"),
          "c.toml:4: specimen.dimensions: ");
-  for (const char* test : {"ucs", "triaxial"})
+  for (const char* test : {"triaxial", "usc"})
     says(complaint(flat + tall + "pack.spheres = 9\n[material]\npreset = \"concrete\"\n", test),
-         "c.toml:2: specimen.dimensions: 2 is not in this version for breccia-");
+         std::string("c.toml:2: specimen.dimensions: breccia-") + test + " has three; valid: 3");
+  const std::string discs = flat + tall + "pack.spheres = 9\n[material]\npreset = \"concrete\"\n";
+  CHECK(load(discs, "ucs").specimen.space == Space::plane);
+  CHECK(load(discs, "biaxial").test.rough_platens == false);
+  says(complaint(body + "dimensions = 3\npack.spheres = 9\n[material]\npreset = \"concrete\"\n", "biaxial"),
+       "c.toml:4: specimen.dimensions: a biaxial test has two; valid: 2");
   says(complaint(flat + tall + "shape = \"box\"\npack.spheres = 9\n[material]\npreset = \"concrete\"\n",
                  "bts"),
        "c.toml:5: specimen.shape: a Brazilian test presses a disc");

@@ -38,3 +38,24 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
     CHECK(std::binary_search(a.skin.begin(), a.skin.end(), row));
   }
 }
+
+TEST_CASE("gauges: of a standing disc and of a rectangle in a plane the widening along x alone [MODEL 10, 1e-14]") {
+  for (const bool disc : {true, false}) {
+    Assembly a = assemble(scene::small_packing(400), scene::small_cylinder(), {}, Features{}, 1);
+    if (disc)
+      a.body = {Shape::disc, 0.05, 0, 0.10, true};  // pressed along z over its diameter
+    else
+      a.space = Space::plane;
+    const auto& x = a.particles.reference_position;
+    const Gauge g = lateral_gauge(a);
+    std::size_t within = 0;  // all particles of a disc, the skin of others, in the middle 40 % of what is pressed
+    for (std::size_t k = 0; k < x.size(); ++k)
+      within += std::abs(x[k].z) < 0.2 * (disc ? 0.05 : 0.10) &&
+                (disc || std::binary_search(a.skin.begin(), a.skin.end(), static_cast<Row>(k)));
+    CHECK(g.rows.size() == within);
+    std::vector<Vec3> moved;
+    for (const Vec3& p : x) moved.push_back(p + Vec3{5e-4 * p.x + 0.01, -7e-4 * p.y + 1, 3e-4 * p.z});
+    INFO("disc ", disc);
+    CHECK(std::abs(read_gauge(g, moved, x) + 5e-4) < 1e-14);
+  }
+}

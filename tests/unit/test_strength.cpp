@@ -112,3 +112,93 @@ TEST_CASE("strength: Mohr-Coulomb through peaks that lie on a line, and off it [
   CHECK(!fit_mohr_coulomb(same, two));
   CHECK(!fit_mohr_coulomb({}, {}));
 }
+
+namespace {
+
+/// Straight pieces from corner to corner of (axial strain, deviator), 100 rows each, one a millisecond.
+std::vector<CurveRow> through(const std::vector<std::pair<double, double>>& corners) {
+  std::vector<CurveRow> rows{CurveRow{}};
+  double e = 0, q = 0;
+  for (const auto& [to_e, to_q] : corners) {
+    for (int k = 1; k <= 100; ++k) {
+      CurveRow r;
+      r.axial_strain = e + (to_e - e) * k / 100;
+      r.confining_stress_Pa = confinement;
+      r.axial_stress_Pa = confinement + q + (to_q - q) * k / 100;
+      r.time_s = 1e-3 * double(rows.size());
+      rows.push_back(r);
+    }
+    e = to_e, q = to_q;
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("strength: cycles: moduli down and up and the strain that stays, of straight pieces [rel 1e-9]") {
+  // up to 40 MPa at 0.002; down at 25 GPa to 4 MPa; up at 24 GPa to 40 MPa; on to 44 MPa at 0.003; again
+  const double down = 0.002 - 36e6 / 25e9, up = down + 36e6 / 24e9, down2 = 0.003 - 39.6e6 / 20e9;
+  const auto rows = through({{0.002, 40e6}, {down, 4e6}, {up, 40e6}, {0.003, 44e6}, {down2, 4.4e6}, {0.0035, 45e6}});
+  const std::vector<std::pair<double, double>> times{{0.1, 0.2}, {0.4, 0.5}};
+  const auto cycles = read_cycles(rows, times);
+  REQUIRE(cycles.size() == 2);
+  CHECK(cycles[0].strain == doctest::Approx(0.002).epsilon(1e-12));
+  CHECK(cycles[0].unloading_modulus_Pa == doctest::Approx(25e9).epsilon(1e-9));
+  CHECK(cycles[0].reloading_modulus_Pa == doctest::Approx(24e9).epsilon(1e-9));
+  CHECK(cycles[0].permanent_strain == doctest::Approx(0.002 - 40e6 / 25e9).epsilon(1e-9));
+  CHECK(cycles[1].strain == doctest::Approx(0.003).epsilon(1e-12));
+  CHECK(cycles[1].unloading_modulus_Pa == doctest::Approx(20e9).epsilon(1e-9));
+  CHECK(cycles[1].permanent_strain == doctest::Approx(0.003 - 44e6 / 20e9).epsilon(1e-9));
+  CHECK(cycles[1].reloading_modulus_Pa == doctest::Approx(40.6e6 / (0.0035 - down2)).epsilon(1e-9));
+  // a run that ended while it was unloading has no cycle more
+  const std::vector<std::pair<double, double>> open{{0.1, 0.2}, {0.4, 0.0}};
+  CHECK(read_cycles(rows, open).size() == 1);
+  CHECK(read_cycles(rows, {}).empty());
+}
+
+TEST_CASE("strength: the first drop of 5 % is not the small one before nor the larger peak behind [exact]") {
+  // 10 MPa, down 4 %, 12 MPa, down 8 %, 20 MPa, down 50 %: of the deviator plus 4 MPa
+  const auto rows = through({{0.001, 10e6}, {0.0011, 0.96 * 14e6 - confinement}, {0.0012, 12e6},
+                             {0.0013, 0.92 * 16e6 - confinement}, {0.002, 20e6}, {0.003, 8e6}});
+  CHECK(stress_at_first_drop(rows, 0.05).value() == 16e6);
+  CHECK(stress_at_first_drop(rows, 0.03).value() == 14e6);
+  CHECK(stress_at_first_drop(rows, 0.10).value() == 24e6);
+  CHECK(!stress_at_first_drop(rows, 0.6));
+  CHECK(!stress_at_first_drop({}, 0.05));
+}
+
+TEST_CASE("strength: bulk modulus: mean stress over volumetric strain between 5 and 25 % of the pressure [rel 1e-12]") {
+  std::vector<CurveRow> rows;
+  for (int k = 0; k <= 1000; ++k) {
+    CurveRow r;
+    r.confining_stress_Pa = 1e5 * k;     // to 100 MPa
+    r.axial_stress_Pa = 1.2e5 * k + 1e6;  // the platens feel something else
+    const double mean = (r.axial_stress_Pa + 2 * r.confining_stress_Pa) / 3;
+    // bedding first, crushing later
+    r.volumetric_strain = k <= 45 ? 1e-5 * k : k <= 260 ? 0.01 + mean / 15e9 : 0.05 + mean / 4e9;
+    rows.push_back(r);
+  }
+  CHECK(bulk_modulus(rows).value() == doctest::Approx(15e9).epsilon(1e-9));
+  CHECK(!bulk_modulus({}));
+  CHECK(!bulk_modulus(std::span(rows).first(3)));
+}
+
+TEST_CASE("strength: direct shear: tau = c + sigma tan phi through its strengths, and off it [rel 1e-12]") {
+  const double tan_phi = std::tan(32 * std::numbers::pi / 180);
+  const std::vector<double> normal{1e6, 3e6, 10e6};
+  std::vector<double> strength;
+  for (const double s : normal) strength.push_back(4e6 + s * tan_phi);
+  const auto line = fit_shear_line(normal, strength).value();
+  CHECK(line.friction_angle_deg == doctest::Approx(32).epsilon(1e-12));
+  CHECK(line.cohesion_Pa == doctest::Approx(4e6).epsilon(1e-12));
+  CHECK(line.residual_Pa < 1e-6);
+  CHECK(line.peaks == 3);
+  const std::vector<double> twice{1e6, 1e6, 3e6, 3e6}, off{5e6, 7e6, 7e6, 9e6};  // 5 MPa + sigma, all 1 MPa off
+  const auto rough = fit_shear_line(twice, off).value();
+  CHECK(rough.friction_angle_deg == doctest::Approx(45).epsilon(1e-12));
+  CHECK(rough.cohesion_Pa == doctest::Approx(5e6).epsilon(1e-12));
+  CHECK(rough.residual_Pa == doctest::Approx(1e6).epsilon(1e-12));
+  const std::vector<double> one{1e6}, same{1e6, 1e6}, two{2e6, 3e6};
+  CHECK(!fit_shear_line(one, one));
+  CHECK(!fit_shear_line(same, two));
+}
