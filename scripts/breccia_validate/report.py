@@ -68,8 +68,7 @@ def write_pages(pages):
 
 def section(study, outcome):
     lines = [f"## {study.title}\n"]
-    commands = [f"`breccia-{case.program} data/validation/cases/{case.file}"
-                + "".join(f" --set '{setting}'" for setting in case.set) + "`" for case in study.cases]
+    commands = commands_of(study.cases)
     lines.append(f"`scripts/validate {study.name}`" + (" runs\n" if commands else "\n"))
     lines += [f"- {command}" for command in commands] + ([""] if commands else [])
     lines += ["| quantity | experiment | paper | breccia | error | run time, s | target | |",
@@ -82,6 +81,19 @@ def section(study, outcome):
         lines += ["", outcome["text"]]
     lines += [""] + [f"![{name}]({name})" for name in outcome["pictures"]] + ([""] if outcome["pictures"] else [])
     return "\n".join(lines)
+
+
+def commands_of(cases, most=8):
+    """One line a run; of a study of many runs one line a case file."""
+    if len(cases) <= most:
+        return [f"`breccia-{case.program} data/validation/cases/{case.file}" + (" --dry-run" if case.dry else "")
+                + "".join(f" --set '{setting}'" for setting in case.set) + "`" for case in cases]
+    lines = {}
+    for case in cases:
+        command = f"`breccia-{case.program} data/validation/cases/{case.file}{' --dry-run' if case.dry else ''}`"
+        lines.setdefault(command, []).append({setting.split("=")[0] for setting in case.set})
+    return [f"{command}, {len(keys)} times" + (f", with other values of {', '.join(f'`{key}`' for key in sorted(set().union(*keys)))}"
+                                               if any(keys) else "") for command, keys in lines.items()]
 
 
 def overview(pages, summary):

@@ -49,6 +49,35 @@ class Result:
         return [warning for run in self.summary["runs"] for warning in run["warnings"]]
 
 
+@dataclass
+class Probe:
+    """What a dry run printed: the specimen as bonded and its answer to a small elastic strain."""
+
+    bonds: float
+    coordination: float
+    mean_radius: float  # mm
+    alpha: float
+    young_modulus: float  # GPa
+    poisson_ratio: float
+    covered: float  # sum of the bonds' areas through a section, over the section
+
+    run_time = None
+
+
+NUMBER = r"(-?[\d.]+(?:e[-+]?\d+)?)"
+PRINTED = {"bonds": rf"; {NUMBER} bonds within", "coordination": rf", {NUMBER} per (?:disc|sphere)",
+           "mean_radius": rf"mean radius {NUMBER} mm", "alpha": rf"alpha {NUMBER}", "young_modulus": rf"specimen: E {NUMBER} GPa",
+           "poisson_ratio": rf"GPa, nu {NUMBER} with", "covered": rf"cover a section {NUMBER} times"}
+
+
+def read_probe(text):
+    found = {name: re.search(pattern, text) for name, pattern in PRINTED.items()}
+    absent = [name for name, match in found.items() if not match]
+    if absent:
+        raise RunFailed(f"the dry run does not print {', '.join(absent)}")
+    return Probe(**{name: float(match[1]) for name, match in found.items()})
+
+
 class Runner:
     def __init__(self, programs=None, out=None, threads=2, again=False, idle=False):
         self.programs = (programs or SOURCE / "build" / "bin").resolve()
@@ -58,6 +87,8 @@ class Runner:
 
     def run(self, study, case):
         """Result of the case, made now or before; RunFailed with the program's message."""
+        if case.dry:
+            return self.dry_run(study, case)
         folder = self.out / study.name / case.name
         key_file, log_file = folder.parent / f"{case.name}.key", folder.parent / f"{case.name}.log"
         key = fingerprint(case)
@@ -83,6 +114,28 @@ class Runner:
         key_file.write_text(key)
         print(f"{study.name}/{case.name}: {time.monotonic() - start:.0f} s", flush=True)
         return read_result(folder)
+
+
+    def dry_run(self, study, case):
+        """What the program prints about the case without running it; kept in out/validation/STUDY/NAME.txt."""
+        kept = self.out / study.name / f"{case.name}.txt"
+        key_file, key = kept.with_suffix(".key"), fingerprint(case)
+        if not self.again and kept.exists() and key_file.exists() and key_file.read_text() == key:
+            return read_probe(kept.read_text())
+        if self.idle:
+            raise RunFailed(f"{case.name}: not there, and nothing is run with --pages")
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        command = [*self.prefix, str(self.programs / f"breccia-{case.program}"), str(CASES / case.file), "--dry-run",
+                   "--threads", str(self.threads)]
+        for setting in case.set:
+            command += ["--set", setting]
+        environment = {**os.environ, "BRECCIA_DATA": str(SOURCE / "data")}
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
+        if done.returncode:
+            raise RunFailed(f"{case.name}: exit code {done.returncode}: {(done.stdout.strip().splitlines() or ['no message'])[-1]}")
+        kept.write_text(done.stdout)
+        key_file.write_text(key)
+        return read_probe(done.stdout)
 
 
 def fingerprint(case):

@@ -11,6 +11,7 @@ class Case:
     program: str  # "ucs" is breccia-ucs
     file: str  # the case, in data/validation/cases
     set: tuple = ()  # "table.key=value", instead of the case's
+    dry: bool = False  # --dry-run: bonds and elastic probe, no test; the study gets a Probe instead of a Result
 
 
 @dataclass
