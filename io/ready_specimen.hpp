@@ -20,7 +20,8 @@ struct ReadySpecimen {
 };
 
 /// What a study of the specimen asks: the modulus and Poisson ratio that an elastic probe reads with the
-/// factor in use, and how often the bonds' areas cover a section. One line.
+/// factor in use, and how often the bonds' areas cover a section. One line; empty for a
+/// specimen that is not held at its ends.
 std::string describe_elasticity(const Case& c, const ReadySpecimen& ready, int threads);
 
 /// @param test      name of the program

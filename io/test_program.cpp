@@ -156,7 +156,8 @@ void run_test_program(const CommandLine& line) {
   if (line.explain || line.dry_run) {
     const World w = make_world(ready.assembly, c.materials.front(), ready.factor, options);
     say(progress, step_line(w, c.safety));
-    say(progress, describe_elasticity(c, ready, line.threads));
+    if (const std::string elastic = describe_elasticity(c, ready, line.threads); !elastic.empty())
+      say(progress, elastic);
     if (line.explain) say(progress, "\n" + explain(w));
     return;
   }
