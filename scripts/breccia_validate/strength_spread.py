@@ -41,7 +41,8 @@ def strength(result, test):
 CASES = {
     1000: cases_of("ucs", 1000, PARTITIONS, RANGES + (0.30,)) + cases_of("bts", 1000, ("as-is", "strength", "both")),
     4000: cases_of("ucs", 4000, PARTITIONS) + cases_of("bts", 4000, ("as-is", "strength", "both"), seeds=(1, 2)),
-    13000: cases_of("ucs", 13000, ("as-is", "both"), seeds=(1,)) + cases_of("bts", 13000, ("as-is",), (0.05, 0.10, 0.20), (1,)),
+    13000: cases_of("ucs", 13000, ("as-is", "polyhedron"), seeds=(1,)) + cases_of("ucs", 13000, ("both",), (0.05, 0.10, 0.20), (1,))
+           + cases_of("bts", 13000, ("as-is",), (0.05, 0.20), (1,)),
 }
 NETWORK = [Case(f"{area}-{int(round(100 * reach)):02d}", "ucs", "strength-spread-ucs.toml",
                 (f"bonds.range={reach:.2f}", f'bonds.area="{area}"', "test.stop_strain=0.0005", "test.platen_speed=0.05",
@@ -123,6 +124,9 @@ def draw(found, spheres, path):
             axes.plot(reach, means, MARKS[partition] + "-", color=COLOURS[partition], markersize=5.5, label=LABELS[partition])
             for b in reach:
                 axes.plot([b] * len(by_range[b]), [v[0] / level for v in by_range[b]], "_", color=COLOURS[partition], markersize=6, alpha=0.5)
+        shown = sorted({b for (of, _), by_range in found.items() if of == test for b in by_range})
+        axes.set_xticks(shown, [f"{b:.2f}" for b in shown])
+        axes.text(shown[0], 1 - AIM / 2, " band of the aim, 5 %", color=SOFT, fontsize=9, va="bottom")
         axes.legend(fontsize=9, loc="lower right")
     save(figure, path)
 
