@@ -30,11 +30,11 @@ STRENGTH = ([Case(label(g, 0.55, s), "biaxial", "discs-biaxial.toml", settings(g
 SLOW = [Case("slow-" + label(g, 0.55, s), "biaxial", "discs-biaxial.toml", settings(g, 0.55, s, "test.platen_speed=0.02"))
         for g, s in ((0.08, 0.2), (0.007, 0.2))]
 ENVELOPE = [Case(label(g, s), "biaxial", "discs-biaxial.toml",
-                 settings(g, 0.55, s, 'test.confinement=["0 MPa", "2.5 MPa", "5 MPa", "15 MPa", "30 MPa"]'))
+                 settings(g, 0.55, s, 'test.confinement=["0 MPa", "2.5 MPa", "5 MPa", "20 MPa"]'))
             for g in (0.007, 0.04, 0.08, 0.1) for s in ((0.05, 0.2, 0.5) if g != 0.1 else (0.05,))]
 FRICTION = [Case(f"mu-{mu:g}", "biaxial", "discs-biaxial.toml",
-                 settings(0.08, 0.55, 0.2, f"material.friction_dynamic={mu:g}", "test.stop_after_peak=0", "test.stop_strain=0.012",
-                          'test.confinement=["0 MPa", "5 MPa", "15 MPa", "30 MPa"]'))
+                 settings(0.08, 0.55, 0.2, f"material.friction_dynamic={mu:g}", "test.stop_after_peak=0", "test.stop_strain=0.008",
+                          'test.confinement=["0 MPa", "5 MPa", "20 MPa"]'))
             for mu in (0.5, 0.8)]
 BRAZILIAN = [Case(label(g, k, s), "bts", "discs-brazilian.toml", settings(g, k, s))
              for g in (0.04, 0.1) for k in SHEAR_RATIOS for s in (0.1, 0.3, 0.5)]
@@ -76,15 +76,15 @@ def elastic(results, pictures):
     poisson = {g: np.array([results[label(g, k)].poisson_ratio for k in ratios]) for g in GENESIS}
     rows = [yes("E'/k_n rises with k_s/k_n, each genesis pressure", all(rising(v) for v in modulus.values())),
             yes("E'/k_n rises with genesis pressure, each k_s/k_n", all(rising([modulus[g][i] for g in GENESIS]) for i in range(len(ratios)))),
-            yes("nu' falls with k_s/k_n, 0.05 and up, each genesis pressure", all((np.diff(v[1:]) < 0).all() for v in poisson.values()))]
+            yes("nu' falls with k_s/k_n, each genesis pressure", all((np.diff(v) < 0).all() for v in poisson.values()))]
     neighbours = {g: results[label(g, 0.55)].coordination for g in GENESIS}
     rows += [Row(f"sigma_0/k_n = {g}: neighbours, E'/k_n and nu' at k_s/k_n = 0.55",
                  f"{neighbours[g]:.2f}, {modulus[g][4]:.3f}, {poisson[g][4]:.3f}") for g in GENESIS]
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.2), constrained_layout=True)
     for g, colour, mark in zip(GENESIS, SHADES, MARKS):
         left.plot(ratios, modulus[g], mark + "-", color=colour, markersize=5, label=f"$\\sigma_0/k_n$ = {g:g}")
-        right.plot(ratios[1:], poisson[g][1:], mark + "-", color=colour, markersize=5, label=f"$\\sigma_0/k_n$ = {g:g}")
-    dense = np.linspace(0.02, 2, 100)
+        right.plot(ratios, poisson[g], mark + "-", color=colour, markersize=5, label=f"$\\sigma_0/k_n$ = {g:g}")
+    dense = np.linspace(0, 2, 100)
     right.plot(dense, affine(dense), "--", color=SOFT, linewidth=1.2, label="affine")
     left.set(title="Apparent Young's modulus", xlabel="$k_s/k_n$", ylabel="$E'/k_n$")
     right.set(title="Apparent Poisson's ratio", xlabel="$k_s/k_n$", ylabel="$\\nu'$")
@@ -98,7 +98,7 @@ def elastic(results, pictures):
 
 E'/k_n; nu' over k_s/k_n, from the elastic probe: apparent constants of a uniaxial test, as in the paper's figure 2 (true ones in plane strain:
 nu = nu'/(1 + nu'), E = E'(1 - nu^2)). The seed text gives the figure's axes and the use made of it, not its numbers, so trends are compared.
-More genesis pressure means more contacts. At k_s = 0 the loosest packings barely stand, and discs at the mantle that nothing holds spoil nu'.""",
+More genesis pressure means more contacts, and a stiffer network at the same k_n that is nearer to affine deformation.""",
                    ["discs-elastic.png"])
 
 
@@ -115,7 +115,7 @@ def unconfined(results, pictures):
     right.set(title="Unconfined strength", xlabel="$k_s/k_n$", ylabel="$q_u R/n_b$")
     for axes in (left, right):
         axes.set_ylim(0, None)
-        axes.legend(fontsize=9.5)
+        axes.legend(fontsize=9.5, handlelength=3)
     save(figure, pictures / "discs-strength.png")
     means = [over_strength[g].mean() for g in GENESIS]
     ordered = sum(rising([over_strength[g][i] for g in GENESIS]) for i in range(len(STRENGTH_RATIOS)))
@@ -137,7 +137,8 @@ def unconfined(results, pictures):
     return Outcome(rows, "\n".join(table) + f"""
 
 q_u R/n_b; the paper draws such values over k_s/k_n for sigma_0/k_n = 0.007 and 0.08 (its figure 3) and states in words what is listed above. One
-packing for each pressure. Kinetic over stored energy reaches {worst:.1e} before the peak: brittle discs throw energy about when bonds break, and
+packing for each pressure. Where n_b/s_b is small bonds break in tension only on the way to the peak, and how strong they are in shear does not matter: that is
+what n_b/s_b of 0.3 and more lets in. Kinetic over stored energy reaches {worst:.1e} before the peak: brittle discs throw energy about when bonds break, and
 the runs are marked dynamic; the slower runs say what that is worth.""", ["discs-strength.png"])
 
 
@@ -150,8 +151,8 @@ def angle(low, high, rise):
 def envelope(results, pictures):
     rows, angles = [], {}
     figure, panes = plt.subplots(1, 3, figsize=(11, 4), constrained_layout=True, sharey=True)
-    table = ["| sigma_0/k_n, n_b/s_b | " + " | ".join(f"sigma_3 = {p:g} MPa" for p in (0, 2.5, 5, 15, 30)) + " | friction angle, 0 to 5 MPa | 5 to 30 MPa |",
-             "| --- |" + " --- |" * 7]
+    table = ["| sigma_0/k_n, n_b/s_b | " + " | ".join(f"sigma_3 = {p:g} MPa" for p in (0, 2.5, 5, 20)) + " | friction angle, 0 to 5 MPa | 5 to 20 MPa |",
+             "| --- |" + " --- |" * 6]
     for name, result in results.items():
         g, s = (float(v) for v in name.split("-"))
         p = np.array([run["confinement_Pa"] for run in result.summary["runs"]])
@@ -173,7 +174,7 @@ def envelope(results, pictures):
                     None, "60 or more", "60 or more", angles[highest][0] >= 60, run_time=sum(r.run_time for r in results.values())))
     rows.append(yes("strength rises with genesis pressure at every confinement, n_b/s_b = 0.05",
                     all(rising([scaled(results[label(g, 0.05)].run(k)["peak_stress_Pa"], results[label(g, 0.05)]) for g in (0.007, 0.04, 0.08)])
-                        for k in range(5))))
+                        for k in range(4))))
     rows.append(yes("angle larger with small n_b/s_b: 0.05 against 0.5, sigma_0/k_n = 0.08", angles[0.08, 0.05][0] > angles[0.08, 0.5][0],
                     f" ({angles[0.08, 0.05][0]:.0f} against {angles[0.08, 0.5][0]:.0f} degrees)"))
     rows.append(yes("envelope curved like a rock's: angle falls with pressure, sigma_0/k_n = 0.08, n_b/s_b = 0.05",
@@ -195,7 +196,7 @@ def friction(results, pictures):
             rest[m].append(np.median(stress[-len(stress) // 10:]))
     rest = {m: np.array(v) for m, v in rest.items()}
     change, remains = np.abs(peak[0.8] / peak[0.5] - 1), np.abs(rest[0.8][1:] / rest[0.5][1:] - 1)
-    rows = [Row("peak, friction 0.8 in place of 0.5: largest change over four confinements", f"{100 * change.max():.1f} %", None, "small", "below 5 %", change.max() < 0.05,
+    rows = [Row("peak, friction 0.8 in place of 0.5: largest change over three confinements", f"{100 * change.max():.1f} %", None, "small", "below 5 %", change.max() < 0.05,
                 run_time=sum(r.run_time for r in results.values())),
             Row("residual strength, the same, confined runs: largest change", f"{100 * remains.max():.1f} %", None, "negligible", "below 10 %", remains.max() < 0.10)]
     figure, axes = plt.subplots(figsize=(6.4, 4.4), constrained_layout=True)
@@ -208,7 +209,7 @@ def friction(results, pictures):
     axes.legend(fontsize=9.5)
     save(figure, pictures / "discs-friction.png")
     return Outcome(rows, "The paper's figure 6 says so of its specimen: the friction of broken bonds matters little beside the roughness of the failure surface. "
-                   "Residual: median stress over the last tenth of the records, at 1.2 % of platen strain.", ["discs-friction.png"])
+                   "Residual: median stress over the last tenth of the records, at 0.8 % of platen strain.", ["discs-friction.png"])
 
 
 def brazilian(results, pictures):
