@@ -63,6 +63,11 @@ struct Checks {
          test == "pack" ? "missing; write [specimen.pack] with spheres = N"
                         : "missing; name a .csv or .mdpa file, or write [specimen.pack]");
     body();
+    // guessed wrongly, a disc is pressed along its own axis
+    const auto axis = layer.find("specimen.axis");
+    if (test == "bts" && c.specimen.file && (axis == layer.end() || axis->second.place.empty()))
+      no("specimen.axis",
+         "missing; a Brazilian test must know the axis of the disc in the file: \"x\", \"y\" or \"z\"");
     if (c.specimen.file) return;
     packing();
   }

@@ -721,6 +721,19 @@ TEST_CASE("case: every declaration is whole, and the printed reference lists it"
   CHECK(describe_keys("pack").find("[bonds]") == std::string::npos);
 }
 
+TEST_CASE("case: a Brazilian test of a file must know the axis of the disc") {
+  const ScratchFolder folder;
+  std::ofstream(folder.path / "disc.csv") << "id,x_m,y_m,z_m,r_m\n1,0,0,0,1\n";
+  const auto file = folder.path / "c.toml";
+  const auto load_with = [&](const std::string& axis) {
+    std::ofstream(file) << "[specimen]\nfile = \"disc.csv\"\ndiameter = 2\nheight = 2\n" + axis +
+                               "[material]\npreset = \"concrete\"\n";
+    return load_case(file, {}, "bts");
+  };
+  CHECK_THROWS_WITH_AS(load_with(""), doctest::Contains("specimen.axis: missing"), BadInput);
+  CHECK(load_with("axis = \"z\"\n").specimen.axis == 'z');
+}
+
 TEST_CASE("case: the examples in data/cases load") {
   const std::filesystem::path cases = std::filesystem::path(BRECCIA_SOURCE_DIR) / "data/cases";
   CHECK(load_case(cases / "ucs-concrete.toml", {}, "ucs").specimen.pack->spheres == 4000);
