@@ -158,7 +158,7 @@ weighs contacts by polyhedra (its section 4.6) and finds the sums of its table 5
 breccia has four rules, `bonds.area`: `polyhedron` (that one), `voronoi` (faces of the radical Voronoi cells), `minimum` (the smaller
 sphere's section, the rule of Onate et al. 2015) and `harmonic`; the last two leave it to the factor alpha to correct the sum.
 """, [
-    Study("areas-plane", "Discs", tuple(plane_cases()), plane),
-    Study("areas-solid", "Spheres, packed here", tuple(solid_cases()), solid),
-    Study("areas-mesh", "Spheres, the thesis' mesh", tuple(MESH), mesh, meshes=("13k_30_15.csv",)),
+    Study("areas-plane", "Contact areas of discs", tuple(plane_cases()), plane),
+    Study("areas-solid", "Contact areas of spheres, packed here", tuple(solid_cases()), solid),
+    Study("areas-mesh", "Contact areas of spheres, the thesis' mesh", tuple(MESH), mesh, meshes=("13k_30_15.csv",)),
 ])]

@@ -253,9 +253,9 @@ sigma_0, then relieved of their forces and bonded where they touch, law `contact
 are theirs; specimens of 29 x 58 mm with 2,000 discs, R/D = 0.018 for their 0.013. Their text states the trends of the charts, and those are the
 targets here.
 """, [
-    Study("discs-elastic", "Elastic constants", tuple(ELASTIC), elastic),
-    Study("discs-strength", "Unconfined strength", tuple(STRENGTH + SLOW), unconfined),
-    Study("discs-envelope", "Failure envelopes", tuple(ENVELOPE), envelope),
-    Study("discs-friction", "Friction of broken bonds", tuple(FRICTION), friction),
-    Study("discs-brazilian", "Brazilian strength", tuple(BRAZILIAN), brazilian),
+    Study("discs-elastic", "Discs: elastic constants", tuple(ELASTIC), elastic),
+    Study("discs-strength", "Discs: unconfined strength", tuple(STRENGTH + SLOW), unconfined),
+    Study("discs-envelope", "Discs: failure envelopes", tuple(ENVELOPE), envelope),
+    Study("discs-friction", "Discs: friction of broken bonds", tuple(FRICTION), friction),
+    Study("discs-brazilian", "Discs: Brazilian strength", tuple(BRAZILIAN), brazilian),
 ])]

@@ -197,11 +197,11 @@ while the stiffness keeps its own calibrated alpha (`bonds.strength_area = "voro
 beside, alpha times Voronoi faces or polyhedra for both. Concrete preset, 150 x 300 mm cylinders and 150 x 75 mm discs packed here,
 platens at 0.1 m/s. Such a `strength_area` stands without alpha and so has another level of strength: only the relative spread counts.
 """, [
-    Study("strength-spread-1000", "1,000 spheres", tuple(CASES[1000]), evaluate(1000)),
-    Study("strength-spread-4000", "4,000 spheres", tuple(CASES[4000]), evaluate(4000)),
-    Study("strength-spread-13000", "13,000 spheres", tuple(CASES[13000]), evaluate(13000)),
-    Study("strength-spread-37000", "37,000 spheres, and over the number of spheres", tuple(CASES[37000]), evaluate(37000)),
-    Study("strength-spread-network", "What the bonds feel", tuple(NETWORK), network),
+    Study("strength-spread-1000", "Strength over beta, 1,000 spheres", tuple(CASES[1000]), evaluate(1000)),
+    Study("strength-spread-4000", "Strength over beta, 4,000 spheres", tuple(CASES[4000]), evaluate(4000)),
+    Study("strength-spread-13000", "Strength over beta, 13,000 spheres", tuple(CASES[13000]), evaluate(13000)),
+    Study("strength-spread-37000", "Strength over beta, 37,000 spheres, and over the number of spheres", tuple(CASES[37000]), evaluate(37000)),
+    Study("strength-spread-network", "Strength over beta: what the bonds feel", tuple(NETWORK), network),
 ], closing="""
 ## What follows
 
