@@ -210,7 +210,8 @@ make it depend more on it. Almost all of the spread lies between 0.05 and 0.10, 
 areas for both (`bonds.area = "polyhedron"`) change least with 4,000 and 13,000 spheres, 4 and 7 %. The number of spheres decides less than the range: 3 to 5 % from
 1,000 to 37,000. A factor on the strengths that falls as the network gets denser cannot
 mend it either: with 4,000 spheres the unconfined strength times alpha is the same at beta 0.05 and 0.20, 32.7 MPa, but the Brazilian strength
-times alpha falls by a fifth, since it grows by a tenth only where the unconfined one grows by a third. Slower platens (0.02 m/s) and the coupled criterion left the
-spread where it was, 25 and 23 % with 1,000 spheres. Until there is better, compare specimens at one
+times alpha falls by a fifth, since it grows by a tenth only where the unconfined one grows by a third. Slower platens and the coupled criterion left the
+spread where it was, 25 and 23 % with 1,000 spheres (the same cases with `--set test.platen_speed=0.02` and
+`--set material.criterion=coupled`). Until there is better, compare specimens at one
 coordination number (`bonds.coordination`), not at one range.
 """)]
