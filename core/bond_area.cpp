@@ -28,7 +28,6 @@ void check(const ParticleTable& p, const BondTable& b, std::span<const Row> skin
 /// Section of a cylinder of radius r, or of a strip.
 double section(double r, Space space) { return space == Space::solid ? pi * r * r : 2.0 * r; }
 
-double smaller(double r_i, double r_j) { return std::min(r_i, r_j); }
 double equivalent(double r_i, double r_j) { return 2.0 * r_i * r_j / (r_i + r_j); }
 
 template <class Radius>
@@ -124,7 +123,7 @@ std::vector<double> bond_areas(AreaRule rule, const ParticleTable& particles, co
     case AreaRule::voronoi:
       return voronoi_areas(particles, bonds, body, space, threads, axis);
   }
-  return pair_areas(particles, bonds, space, smaller);
+  return pair_areas(particles, bonds, space, smaller<double>);
 }
 
 }  // namespace breccia

@@ -6,6 +6,7 @@
 
 #include "core/column.hpp"
 #include "core/table.hpp"
+#include "kernels/bond.hpp"
 
 namespace breccia {
 
@@ -36,6 +37,20 @@ struct BondTable {
 /// The areas that strengths stand on.
 inline const std::vector<double>& strength_areas(const BondTable& bonds) {
   return bonds.strength_area.empty() ? bonds.area : bonds.strength_area;
+}
+
+/// What bond `k` is, as a law takes it; without its dashpot, which stores no energy.
+inline BondConstants<double> constants_of_bond(const BondTable& bonds, std::size_t k) {
+  return {bonds.rest_length[k], bonds.area[k], strength_areas(bonds)[k], bonds.stiffness[k], 0.0};
+}
+
+/// What bond `k` remembers; what the scene leaves out is zero.
+inline BondHistory<double> history_of_bond(const BondTable& bonds, std::size_t k) {
+  const auto value = [k](const std::vector<double>& column) { return column.empty() ? 0.0 : column[k]; };
+  return {{bonds.shear_x[k], bonds.shear_y[k], bonds.shear_z[k]},
+          value(bonds.plastic_stretch),
+          value(bonds.damage_normal),
+          value(bonds.damage_shear)};
 }
 
 /// What became of a bond, as written to results: 0 intact, 1 broken in tension, 2 broken in shear.

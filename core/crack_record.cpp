@@ -29,12 +29,8 @@ Crack crack_of(const Law& law, bool coupled, const FreshBreak& was, double dt, c
   const Vec3 l = p.position[b.row_hi[k]] - p.position[b.row_lo[k]];
   const Vec3 dv = p.velocity[b.row_hi[k]] - p.velocity[b.row_lo[k]];
   const double distance = norm(l), distance_before = norm(l - dt * dv);
-  const BondConstants<double> bond{b.rest_length[k], b.area[k], strength_areas(b)[k], b.stiffness[k], 0.0};
+  const BondConstants<double> bond = constants_of_bond(b, k);
   const BondHistory<double> before{was.shear, was.plastic_stretch, was.damage_normal, was.damage_shear};
-  const BondHistory<double> after{{b.shear_x[k], b.shear_y[k], b.shear_z[k]},
-                                  b.plastic_stretch.empty() ? 0.0 : b.plastic_stretch[k],
-                                  b.damage_normal[k],
-                                  b.damage_shear[k]};
   const BondForce<double> carried = force_of_state(law, bond, before, distance_before, coupled);
   Crack crack;
   crack.gid_lo = b.gid_lo[k];
@@ -46,7 +42,7 @@ Crack crack_of(const Law& law, bool coupled, const FreshBreak& was, double dt, c
   crack.shear_force = norm(carried.shear);
   crack.area = bond.strength_area;
   crack.energy = stored_energy(law, bond, before, distance_before, coupled) -
-                 stored_energy(law, bond, after, distance, coupled);
+                 stored_energy(law, bond, history_of_bond(b, k), distance, coupled);
   return crack;
 }
 

@@ -5,17 +5,6 @@
 namespace breccia {
 namespace {
 
-BondConstants<double> constants_of_bond(const BondTable& b, std::size_t k) {
-  return {b.rest_length[k], b.area[k], strength_areas(b)[k], b.stiffness[k], 0.0};
-}
-
-BondHistory<double> history_of_bond(const BondTable& b, std::size_t k) {
-  return {{b.shear_x[k], b.shear_y[k], b.shear_z[k]},
-          b.plastic_stretch.empty() ? 0.0 : b.plastic_stretch[k],
-          b.damage_normal.empty() ? 0.0 : b.damage_normal[k],
-          b.damage_shear.empty() ? 0.0 : b.damage_shear[k]};
-}
-
 /// Calls add(lo, hi, unit normal, distance, force on lo) for every bond and every pressed contact.
 template <class Add>
 void for_each_force(const World& w, const Add& add) {

@@ -123,20 +123,12 @@ double kinetic_energy(const World& w) {
 double stored_energy(const World& w) {
   std::vector<double> blocks;
   const BondTable& b = w.bonds;
-  const bool plastic = !b.plastic_stretch.empty(), breakable = !b.damage_normal.empty();
   const bool coupled = w.features.criterion == Criterion::coupled;
-  const std::vector<double>& strength_area = strength_areas(b);
   double sum = std::visit(
       [&](const auto& law) {
         return sum_rows<double>(b.size, w.options.threads, blocks, [&](std::size_t k) {
           const double distance = norm(w.particles.position[b.row_hi[k]] - w.particles.position[b.row_lo[k]]);
-          const BondConstants<double> bond{b.rest_length[k], b.area[k], strength_area[k], b.stiffness[k],
-                                           0.0};
-          const BondHistory<double> h{{b.shear_x[k], b.shear_y[k], b.shear_z[k]},
-                                      plastic ? b.plastic_stretch[k] : 0.0,
-                                      breakable ? b.damage_normal[k] : 0.0,
-                                      breakable ? b.damage_shear[k] : 0.0};
-          return stored_energy(law, bond, h, distance, coupled);
+          return stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k), distance, coupled);
         });
       },
       w.law);

@@ -475,10 +475,7 @@ std::vector<Key> keys_of_laws() {
     for (const LawParameter& parameter : law.own) {
       Key key;
       key.name = names.emplace_back(fmt::format("material.{}", parameter.key));
-      key.dimension = parameter.unit == "N/m"  ? dimension::stiffness
-                      : parameter.unit == "N"  ? dimension::force
-                      : parameter.unit == "Pa" ? dimension::stress
-                                               : dimension::number;
+      key.dimension = dimension_of(parameter.unit);
       key.range = parameter.above ? more_than(parameter.low) : at_least(parameter.low);
       key.law = law.name;
       key.meaning = names.emplace_back(fmt::format("law {}: {}", law.name, parameter.meaning));

@@ -63,8 +63,7 @@ template <class Law>
 std::string fracture_energies(const World& w, const Law& law) {
   double normal = 0, shear = 0, area = 0;
   for (std::size_t k = 0; k < w.bonds.size; ++k) {
-    const BondConstants<double> bond{w.bonds.rest_length[k], w.bonds.area[k], strength_areas(w.bonds)[k],
-                                     w.bonds.stiffness[k], 0.0};
+    const BondConstants<double> bond = constants_of_bond(w.bonds, k);
     const auto limits = limits_of(law, bond);
     const double length = strain_length(law.young, bond);
     normal +=

@@ -179,8 +179,12 @@ std::string describe(Dimension d) {
   if (d == dimension::force) return "a force";
   if (d == dimension::stress) return "a stress";
   if (d == dimension::density) return "a density";
-  if (d == dimension::energy_per_area) return "an energy per area";
+  if (d == dimension::energy_per_area) return "an energy per area or a stiffness";
   return "a quantity in " + si_unit(d);
+}
+
+Dimension dimension_of(std::string_view unit) {
+  return unit == "1" ? dimension::number : parse_unit(unit, dimension::number).dimension;
 }
 
 double parse_quantity(std::string_view text, Dimension wanted) {

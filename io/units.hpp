@@ -14,7 +14,8 @@ struct Dimension {
 
 namespace dimension {
 inline constexpr Dimension number{}, mass{1, 0, 0}, length{0, 1, 0}, time{0, 0, 1}, speed{0, 1, -1},
-    force{1, 1, -2}, stress{1, -1, -2}, density{1, -3, 0}, energy_per_area{1, 0, -2}, stiffness{1, 0, -2};
+    force{1, 1, -2}, stress{1, -1, -2}, density{1, -3, 0},
+    energy_per_area{1, 0, -2};  // of a stiffness, N/m, too
 }
 
 /// What a dimension is called: "a length", "a stress"; base units where it has no name: "kg*m^2".
@@ -22,6 +23,10 @@ std::string describe(Dimension);
 
 /// The SI unit in which a bare number of that dimension is read: "Pa", "kg/m^3"; empty for a number.
 std::string si_unit(Dimension);
+
+/// The dimension of a unit: of "N/m^2" a stress, of "1" a number.
+/// @throws BadInput where it is none
+Dimension dimension_of(std::string_view unit);
 
 /// Reads a number with its unit: SI with every prefix, in, ft, lb, lbf, kip, psi, ksi, bar, atm, t, min, h,
 /// %, ..., joined with * / ^ ("kg/m^3", "N*s/m", "g/cm3"). A decimal multiple of SI reads as the same double

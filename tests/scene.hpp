@@ -103,6 +103,20 @@ inline AreaFactor factor(const reference::Parameters& p) {
   return f;
 }
 
+/// Two spheres of radius 1 m, one upon the other, both held: the pair of the Kratos benchmarks 22 and 24.
+inline World kratos_pair(reference::Parameters p, double dt) {
+  p.E = 1e9;
+  p.sigma_t = 1e6;
+  p.tau_f = 0.5e6;
+  p.plasticity = p.contact_damping = false;
+  p.xi = 0;
+  Assembly a = free_body({{140, 1, {0, 0, -1}}, {141, 1, {0, 0, 1}}}, p.beta, options(p).features);
+  a.particles.free = 0, a.first_top = 1;
+  World w = make_world(a, material_of(p), factor(p), options(p));
+  w.dt = dt;
+  return w;
+}
+
 /// A cylinder 100 mm high and 50 mm across.
 inline const Body& small_cylinder() {
   static const Body body{Shape::cylinder, 0.05, 0, 0.10};

@@ -10,26 +10,17 @@ using namespace breccia;
 
 namespace {
 
-/// Two spheres of radius 1 m: the lower at rest, the upper led around it on a circle at 20 pi 1/s without
+/// The lower sphere at rest, the upper led around it on a circle at 20 pi 1/s without
 /// spinning, so that the bond is sheared and neither stretched nor pressed.
 struct Pair24 {
-  reference::Parameters p;
   World w;
   double angle = 0;
 
   Pair24() {
-    p.E = 1e9;
-    p.sigma_t = 1e6;
-    p.tau_f = 0.5e6;
+    reference::Parameters p;
     p.mu1 = 1;
     p.delta_s = 1;
-    p.plasticity = p.contact_damping = false;
-    p.xi = 0;
-    Assembly a =
-        scene::free_body({{140, 1, {0, 0, -1}}, {141, 1, {0, 0, 1}}}, p.beta, scene::options(p).features);
-    a.particles.free = 0, a.first_top = 1;  // both held
-    w = make_world(a, scene::material_of(p), scene::factor(p), scene::options(p));
-    w.dt = 1e-7;
+    w = scene::kratos_pair(p, 1e-7);
   }
   Vec3 place() const { return {2 * std::sin(angle), 0, -1 + 2 * std::cos(angle)}; }
   void step() {

@@ -18,17 +18,8 @@ TEST_CASE(
     return;
   }
   reference::Parameters p;
-  p.E = 1e9;
-  p.sigma_t = 1e6;
-  p.tau_f = 0.5e6;
   p.delta_n = 0.8;
-  p.plasticity = p.contact_damping = false;
-  p.xi = 0;
-  Assembly a =
-      scene::free_body({{140, 1, {0, 0, -1}}, {141, 1, {0, 0, 1}}}, p.beta, scene::options(p).features);
-  a.particles.free = 0, a.first_top = 1;  // both held, the upper one is pulled
-  World w = make_world(a, scene::material_of(p), scene::factor(p), scene::options(p));
-  w.dt = 1e-5;
+  World w = scene::kratos_pair(p, 1e-5);
   scene::drive(w, 0, 0.1);
   w.particles.velocity[1].z = 0.1;
   std::ifstream in(file);

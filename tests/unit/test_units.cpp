@@ -108,6 +108,13 @@ TEST_CASE("units: inch and pound units by their exact definitions") {
   }
 }
 
+TEST_CASE("units: a unit alone has a dimension") {
+  CHECK(dimension_of("N/m") == dimension::energy_per_area);
+  CHECK(dimension_of("kN/mm^2") == dimension::stress);
+  CHECK(dimension_of("1") == dimension::number);
+  CHECK_THROWS_AS(dimension_of("stone"), BadInput);
+}
+
 TEST_CASE("units: what is wrong is named, with the nearest unit or an example") {
   using namespace dimension;
   says(complaint("30 Mpa", stress), "unknown unit \"Mpa\"; did you mean \"MPa\"?");
