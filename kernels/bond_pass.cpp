@@ -54,11 +54,11 @@ template <Features features>
   }
 }
 
-/// Flattened: with several laws in one file the compiler stops inlining a law into its loop by itself, and wide
-/// registers then travel through memory (19 ns a bond instead of 13).
+/// Flattened: with several laws in one file the compiler stops inlining a law into its loop by itself, and
+/// wide registers then travel through memory (19 ns a bond instead of 13).
 template <class Law, Features features>
-[[gnu::flatten]] void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first, std::size_t last,
-               const Scatter& to, BreakNotes* notes) {
+[[gnu::flatten]] void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first,
+                                std::size_t last, const Scatter& to, BreakNotes* notes) {
   const Law& law = *static_cast<const Law*>(in.law);
   ForceBlock block;
   while (first < last) {

@@ -1,4 +1,5 @@
-// A small specimen torn to pieces by the fast code and by the slow reference: the same pieces in the same places.
+// A small specimen torn to pieces by the fast code and by the slow reference: the same pieces in the same
+// places.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -16,8 +17,9 @@ constexpr int steps = 200;
 /// Every ninth sphere bonds with nobody: contacts from the start, some of them overlapping.
 int group_of(Gid id) { return id % 9 == 0 ? 0 : 1; }
 
-/// Crushed between platens, twisted and shaken: everything happens within 200 steps. Spins stay below 1e-4 a step, where
-/// the turn about the normal that the fast code makes (MODEL 4, to third order) is that of the reference to 1e-13.
+/// Crushed between platens, twisted and shaken: everything happens within 200 steps. Spins stay below 1e-4 a
+/// step, where the turn about the normal that the fast code makes (MODEL 4, to third order) is that of the
+/// reference to 1e-13.
 struct Torn {
   ref::Parameters parameters;
   World world;
@@ -35,7 +37,8 @@ Torn make_torn(ref::Criterion criterion, ScatterKind scatter, int threads, std::
   Specimen specimen = scene::small_packing(spheres);
   for (auto& s : specimen.spheres) s.group = group_of(s.id);
   p.beta = 0.03;
-  const Assembly a = assemble(specimen, scene::small_cylinder(), {p.beta, {}, AreaRule::minimum, {}}, o.features, threads);
+  const Assembly a =
+      assemble(specimen, scene::small_cylinder(), {p.beta, {}, AreaRule::minimum, {}}, o.features, threads);
   t.world = make_world(a, scene::material_of(p), scene::factor(p), o);
   World& w = t.world;
   std::mt19937_64 random(42);
@@ -72,8 +75,11 @@ double difference(const std::vector<Vec3>& a, const auto& b, std::size_t n) {
 
 }  // namespace
 
-TEST_CASE("reference: a breaking specimen of 100 spheres after 200 steps: x, v, w, forces, history as the reference [rel 1e-10]") {
-  for (const auto criterion : {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb}) {
+TEST_CASE(
+    "reference: a breaking specimen of 100 spheres after 200 steps: x, v, w, forces, history as the "
+    "reference [rel 1e-10]") {
+  for (const auto criterion :
+       {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb}) {
     Torn first = make_torn(criterion, ScatterKind::private_sums, 1);
     ref::World want = scene::to_reference(first.world, first.parameters, groups(first.world));
     REQUIRE(want.bonds.size() == first.world.bonds.size);
@@ -94,8 +100,8 @@ TEST_CASE("reference: a breaking specimen of 100 spheres after 200 steps: x, v, 
       plastic += b.u_p < 0;
       damaged += b.broken == ref::Broken::no && (b.D_n > 0 || b.D_s > 0);
     }
-    INFO("tension ", tension, ", shear ", shear, ", plastic ", plastic, ", damaged ", damaged, ", contacts ", contacts, " of ",
-         want.bonds.size(), " bonds");
+    INFO("tension ", tension, ", shear ", shear, ", plastic ", plastic, ", damaged ", damaged, ", contacts ",
+         contacts, " of ", want.bonds.size(), " bonds");
     CHECK(tension > 10);
     CHECK(tension < want.bonds.size() / 2);
     CHECK(shear > 10);
@@ -105,9 +111,12 @@ TEST_CASE("reference: a breaking specimen of 100 spheres after 200 steps: x, v, 
     CHECK(contacts > contacts_at_start + 3);
     CHECK(friction > 0);
 
-    for (const auto& [scatter, threads] :
-         {std::pair{ScatterKind::private_sums, 1}, {ScatterKind::private_sums, 2}, {ScatterKind::atomic, 1},
-          {ScatterKind::atomic, 2}, {ScatterKind::gather, 1}, {ScatterKind::gather, 2}})
+    for (const auto& [scatter, threads] : {std::pair{ScatterKind::private_sums, 1},
+                                           {ScatterKind::private_sums, 2},
+                                           {ScatterKind::atomic, 1},
+                                           {ScatterKind::atomic, 2},
+                                           {ScatterKind::gather, 1},
+                                           {ScatterKind::gather, 2}})
       for (int set = 0; set <= static_cast<int>(best_instruction_set()); ++set) {
         if (threads == 2 && set != static_cast<int>(best_instruction_set())) continue;
         World w = make_torn(criterion, scatter, threads).world;
@@ -118,17 +127,24 @@ TEST_CASE("reference: a breaking specimen of 100 spheres after 200 steps: x, v, 
         std::vector<Vec3> moved(p.size);
         for (std::size_t k = 0; k < p.size; ++k) moved[k] = p.position[k] - p.reference_position[k];
         const auto& r = want.particles;
-        CHECK(difference(moved, [&](std::size_t k) { return r[k].x - p.reference_position[k]; }, p.size) < 1e-10);
-        CHECK(difference(p.velocity, [&](std::size_t k) { return r[k].v; }, p.size) < 1e-10);
-        CHECK(difference(p.spin, [&](std::size_t k) { return r[k].w; }, p.size) < 1e-10);
+        CHECK(difference(
+                  moved, [&](std::size_t k) { return r[k].x - p.reference_position[k]; }, p.size) < 1e-10);
+        CHECK(difference(
+                  p.velocity, [&](std::size_t k) { return r[k].v; }, p.size) < 1e-10);
+        CHECK(difference(
+                  p.spin, [&](std::size_t k) { return r[k].w; }, p.size) < 1e-10);
         const scene::Forces f = scene::forces_now(w);
-        CHECK(difference(f.force, [&](std::size_t k) { return r[k].force; }, p.size) < 1e-10);
-        CHECK(difference(f.torque, [&](std::size_t k) { return r[k].torque; }, p.size) < 1e-10);
+        CHECK(difference(
+                  f.force, [&](std::size_t k) { return r[k].force; }, p.size) < 1e-10);
+        CHECK(difference(
+                  f.torque, [&](std::size_t k) { return r[k].torque; }, p.size) < 1e-10);
       }
   }
 }
 
-TEST_CASE("reference: 200 steps on, each bond of the fast code is intact, broken in tension or in shear as the reference's [equal]") {
+TEST_CASE(
+    "reference: 200 steps on, each bond of the fast code is intact, broken in tension or in shear as the "
+    "reference's [equal]") {
   Torn t = make_torn(ref::Criterion::uncoupled, ScatterKind::private_sums, 2);
   ref::World want = scene::to_reference(t.world, t.parameters, groups(t.world));
   World& w = t.world;
@@ -143,15 +159,19 @@ TEST_CASE("reference: 200 steps on, each bond of the fast code is intact, broken
   for (std::size_t k = 0; k < w.bonds.size; ++k) {
     const ref::Bond& b = *by_ids.at({std::int64_t(w.bonds.gid_lo[k]), std::int64_t(w.bonds.gid_hi[k])});
     different += static_cast<int>(bond_state(w.bonds, k)) != static_cast<int>(b.broken);
-    damage = std::max({damage, std::abs(w.bonds.damage_normal[k] - b.D_n), std::abs(w.bonds.damage_shear[k] - b.D_s),
+    damage = std::max({damage, std::abs(w.bonds.damage_normal[k] - b.D_n),
+                       std::abs(w.bonds.damage_shear[k] - b.D_s),
                        std::abs(w.bonds.plastic_stretch[k] - b.u_p) / b.d0});
   }
   CHECK(different == 0);
   CHECK(damage < 1e-8);
 }
 
-TEST_CASE("reference: without rotation nothing spins - also in a kernel that could and forces are the reference's [rel 1e-10]") {
-  for (const auto criterion : {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb}) {
+TEST_CASE(
+    "reference: without rotation nothing spins - also in a kernel that could and forces are the reference's "
+    "[rel 1e-10]") {
+  for (const auto criterion :
+       {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb}) {
     ref::Parameters p;
     p.criterion = criterion;
     p.rotation = false;
@@ -163,13 +183,14 @@ TEST_CASE("reference: without rotation nothing spins - also in a kernel that cou
     o.safety = 0.4;
     const Features built = built_features(scene::law(p), o.features);
     CHECK(built.rotation == (criterion == ref::Criterion::coupled));  // the superset that runs it can turn
-    const Assembly a = assemble(scene::small_packing(100), scene::small_cylinder(), {p.beta, {}, AreaRule::minimum, {}},
-                                built, 1, false);
+    const Assembly a = assemble(scene::small_packing(100), scene::small_cylinder(),
+                                {p.beta, {}, AreaRule::minimum, {}}, built, 1, false);
     World w = make_world(a, scene::material_of(p), scene::factor(p), o);
     std::mt19937_64 random(42);
     std::uniform_real_distribution<double> in(-1, 1);
     for (std::size_t k = 0; k < w.particles.free; ++k)
-      w.particles.velocity[k] = {10 * in(random), 10 * in(random), 10 * in(random) - 600 * w.particles.position[k].z};
+      w.particles.velocity[k] = {10 * in(random), 10 * in(random),
+                                 10 * in(random)-600 * w.particles.position[k].z};
     scene::drive(w, 30, -30);
     for (std::size_t k = w.particles.free; k < w.particles.size; ++k)
       w.particles.velocity[k] = {0, 0, k < w.first_top ? 30.0 : -30.0};
@@ -185,14 +206,20 @@ TEST_CASE("reference: without rotation nothing spins - also in a kernel that cou
     CHECK(count_broken(w).shear > 10);
     CHECK(w.particles.spin.size() == (built.rotation ? w.particles.size : 0));
     for (const Vec3& spin : w.particles.spin) CHECK(spin == Vec3{});
-    CHECK(difference(w.particles.velocity, [&](std::size_t k) { return want.particles[k].v; }, w.particles.size) < 1e-10);
+    CHECK(difference(
+              w.particles.velocity, [&](std::size_t k) { return want.particles[k].v; }, w.particles.size) <
+          1e-10);
     const scene::Forces f = scene::forces_now(w);
-    CHECK(difference(f.force, [&](std::size_t k) { return want.particles[k].force; }, w.particles.size) < 1e-10);
+    CHECK(difference(
+              f.force, [&](std::size_t k) { return want.particles[k].force; }, w.particles.size) < 1e-10);
   }
 }
 
-TEST_CASE("reference: gather gives the same bits with 1, 2, 3, 5 threads [DESIGN: promises, state hash equal]") {
-  for (const auto& [spheres, count] : {std::pair{std::size_t{100}, steps}, {std::size_t{2600}, 60}}) {  // loops beyond bonds are cut above 2048 rows
+TEST_CASE(
+    "reference: gather gives the same bits with 1, 2, 3, 5 threads [DESIGN: promises, state hash equal]") {
+  for (const auto& [spheres, count] :
+       {std::pair{std::size_t{100}, steps},
+        {std::size_t{2600}, 60}}) {  // loops beyond bonds are cut above 2048 rows
     std::string want;
     for (const int threads : {1, 2, 3, 5}) {
       World w = make_torn(ref::Criterion::uncoupled, ScatterKind::gather, threads, spheres).world;
@@ -206,7 +233,9 @@ TEST_CASE("reference: gather gives the same bits with 1, 2, 3, 5 threads [DESIGN
   }
 }
 
-TEST_CASE("reference: private sums give the same bits from run to run with 2 and 3 threads [DESIGN: the loop, state hash equal]") {
+TEST_CASE(
+    "reference: private sums give the same bits from run to run with 2 and 3 threads [DESIGN: the loop, "
+    "state hash equal]") {
   for (const int threads : {2, 3}) {
     std::string want;
     for (int run = 0; run < 3; ++run) {

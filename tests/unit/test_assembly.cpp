@@ -137,7 +137,8 @@ TEST_CASE(
   std::size_t wrong = 0, lower = 0, upper = 0;
   for (std::size_t k = 0; k < a.particles.size; ++k) {
     const Vec3& x = a.particles.position[k];
-    const bool within = std::abs(x.x) < 0.15 * 0.025 && std::hypot(x.x, x.z) + a.particles.radius[k] > 0.025 - 2.5 * mean;
+    const bool within =
+        std::abs(x.x) < 0.15 * 0.025 && std::hypot(x.x, x.z) + a.particles.radius[k] > 0.025 - 2.5 * mean;
     wrong += within != (k >= a.particles.free);
     if (!within) continue;
     wrong += (x.z > 0) != (k >= a.first_top);

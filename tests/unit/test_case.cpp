@@ -349,9 +349,11 @@ TEST_CASE("case: unknown keys, tables and presets are refused with the nearest v
        "c.toml:9: material.delta: unknown key; ");
   says(complaint(good + "[[material.at]]\nconfinement = 0\npreset = \"x\"\n"),
        "c.toml:9: material.at.preset: not for one confinement");
-  for (const std::string line : {"law = \"kdem\"", "criterion = \"coupled\""})  // the tables and kernels are the series'
+  for (const std::string line :
+       {"law = \"kdem\"", "criterion = \"coupled\""})  // the tables and kernels are the series'
     says(complaint(good + "[[material.at]]\nconfinement = 0\n" + line + "\n"),
-         "c.toml:9: material.at." + line.substr(0, line.find(' ')) + ": not for one confinement; it belongs to the whole material");
+         "c.toml:9: material.at." + line.substr(0, line.find(' ')) +
+             ": not for one confinement; it belongs to the whole material");
   says(complaint(good + "nu = 1\n"), "c.toml:7: material.nu: unknown key; valid: \"material.preset\", ");
   says(complaint(pack + "pack.size.kind = 1\n"),
        "c.toml:5: specimen.pack.size: unknown key; did you mean \"specimen.pack.sizes\"?");
@@ -503,7 +505,8 @@ TEST_CASE("case: what a later version brings is refused by name") {
             "damping.scheme \"capped\" is not in this version; valid: \"explicit\""},
            {"damping", "scheme = \"summed\"", "damping.scheme \"summed\" is not in this version"},
            {"material", "law = \"parallel-bond\"",
-            "material.law \"parallel-bond\" is not in this version; valid: \"dempack\", \"exponential\", \"kdem\""},
+            "material.law \"parallel-bond\" is not in this version; valid: \"dempack\", \"exponential\", "
+            "\"kdem\""},
            {"run", "checkpoint_every = \"5 min\"",
             "run.checkpoint_every \"5 min\" is not in this version; leave it out"},
        })
@@ -511,8 +514,10 @@ TEST_CASE("case: what a later version brings is refused by name") {
 }
 
 TEST_CASE("case: areas of the bonds - those of the strengths beside them") {
-  for (const auto& [word, rule] : {std::pair{"minimum", AreaRule::minimum}, {"harmonic", AreaRule::harmonic},
-                                   {"polyhedron", AreaRule::polyhedron}, {"voronoi", AreaRule::voronoi}}) {
+  for (const auto& [word, rule] : {std::pair{"minimum", AreaRule::minimum},
+                                   {"harmonic", AreaRule::harmonic},
+                                   {"polyhedron", AreaRule::polyhedron},
+                                   {"voronoi", AreaRule::voronoi}}) {
     const std::string area = std::string("area = \"") + word + "\"\n";
     CHECK(load(good + "[bonds]\n" + area).bonds.area == rule);
     CHECK(!load(good + "[bonds]\n" + area).bonds.strength_area);
@@ -527,13 +532,15 @@ TEST_CASE("case: areas of the bonds - those of the strengths beside them") {
 
 namespace {
 
-const std::string elastic_keys = "density = 2500\nyoung_modulus = \"28 GPa\"\npoisson_ratio = 0.2\n";  // lines 6 to 8
+const std::string elastic_keys =
+    "density = 2500\nyoung_modulus = \"28 GPa\"\npoisson_ratio = 0.2\n";  // lines 6 to 8
 const std::string kdem = pack + "[material]\n" + elastic_keys +
                          "friction_dynamic = 0.25\nfriction_static = 0.9\ntensile_strength = \"5 MPa\"\n"
                          "shear_strength = \"16 MPa\"\nlaw = \"kdem\"\n";  // to line 13
-const std::string glue = pack + "[material]\ndensity = 2500\nlaw = \"contact-bond\"\nfriction_dynamic = 0.5\n"
-                                "normal_stiffness = \"20 GN/m\"\nshear_stiffness = \"5 GN/m\"\n"
-                                "normal_strength = \"8 kN\"\nbond_shear_strength = \"20 kN\"\n";
+const std::string glue = pack +
+                         "[material]\ndensity = 2500\nlaw = \"contact-bond\"\nfriction_dynamic = 0.5\n"
+                         "normal_stiffness = \"20 GN/m\"\nshear_stiffness = \"5 GN/m\"\n"
+                         "normal_strength = \"8 kN\"\nbond_shear_strength = \"20 kN\"\n";
 
 }  // namespace
 
@@ -545,8 +552,8 @@ TEST_CASE("case: law kdem has polyhedron areas and alpha 1 of its own - which th
   CHECK(c.materials.at(0).law == "kdem");
   CHECK(c.materials[0].own.at("normal_factor") == 1);
   CHECK(c.materials[0].own.at("shear_factor") == 1);
-  const Case own = load(kdem + "normal_factor = 1.2\n[bonds]\narea = \"voronoi\"\nalpha = \"affine\"\n", "triaxial",
-                        {"material.shear_factor=0.6"});
+  const Case own = load(kdem + "normal_factor = 1.2\n[bonds]\narea = \"voronoi\"\nalpha = \"affine\"\n",
+                        "triaxial", {"material.shear_factor=0.6"});
   CHECK(own.bonds.area == AreaRule::voronoi);
   CHECK(own.bonds.alpha_rule == AlphaRule::affine);
   CHECK(own.materials[0].own.at("normal_factor") == 1.2);
@@ -555,8 +562,10 @@ TEST_CASE("case: law kdem has polyhedron areas and alpha 1 of its own - which th
        "c.toml:14: material.damage_normal: law \"kdem\" has no damage_normal; leave it out");
   says(complaint(kdem, "ucs", {"material.damage_normal=0.1"}),
        "--set: material.damage_normal: law \"kdem\" has no damage_normal; leave it out");
-  says(complaint(kdem + "hardening_rate = 16\n"), "c.toml:14: material.hardening_rate: law \"kdem\" has no hardening_rate");
-  says(complaint(good + "normal_factor = 1\n"), "c.toml:7: material.normal_factor: law \"dempack\" has no normal_factor");
+  says(complaint(kdem + "hardening_rate = 16\n"),
+       "c.toml:14: material.hardening_rate: law \"kdem\" has no hardening_rate");
+  says(complaint(good + "normal_factor = 1\n"),
+       "c.toml:7: material.normal_factor: law \"dempack\" has no normal_factor");
 }
 
 TEST_CASE("case: what a preset has for another law is left out - of the resolved case too") {
@@ -576,9 +585,11 @@ TEST_CASE("case: what a preset has for another law is left out - of the resolved
 }
 
 TEST_CASE("case: law contact-bond needs its four constants and two dimensions and has no area to scale") {
-  says(complaint(glue), "c.toml:7: material.law: law \"contact-bond\" is one of discs; set specimen.dimensions = 2");
+  says(complaint(glue),
+       "c.toml:7: material.law: law \"contact-bond\" is one of discs; set specimen.dimensions = 2");
   says(complaint(glue + "[bonds]\nalpha = \"auto\"\n"),
-       "c.toml:14: bonds.alpha: law \"contact-bond\" has stiffnesses of its own, no area to scale; leave it out");
+       "c.toml:14: bonds.alpha: law \"contact-bond\" has stiffnesses of its own, no area to scale; leave it "
+       "out");
   says(complaint(glue + "tensile_strength = 1\n"),
        "c.toml:13: material.tensile_strength: law \"contact-bond\" has no tensile_strength; leave it out");
   says(complaint(glue + "criterion = \"coupled\"\n"),
@@ -593,8 +604,7 @@ TEST_CASE("case: law contact-bond needs its four constants and two dimensions an
 
 TEST_CASE("case: keys that a test does not know, and bodies that it does not test") {
   const std::string confined = good + "[test]\nconfinement = [0, \"4 MPa\"]\n";
-  says(complaint(confined, "bts"),
-       "c.toml:8: test.confinement: this test sets no pressure; leave it out");
+  says(complaint(confined, "bts"), "c.toml:8: test.confinement: this test sets no pressure; leave it out");
   says(complaint(confined, "ucs"),
        "c.toml:8: test.confinement: 4 MPa: an unconfined test has none; leave it out, or use "
        "breccia-triaxial");
@@ -699,8 +709,7 @@ TEST_CASE("case: [[material.at]] names a confinement that is run, once") {
        "c.toml:10: material.at: 0 Pa is given twice; join the two tables");
   says(complaint(at + "confinement = \"6 mm\"\n"),
        "c.toml:8: material.at.confinement: \"6 mm\" is a length; a stress is wanted");
-  says(complaint(at + "confinement = 0\n", "bts"),
-       "c.toml:8: material.at: this test sets no pressure");
+  says(complaint(at + "confinement = 0\n", "bts"), "c.toml:8: material.at: this test sets no pressure");
   CHECK(complaint(at + "confinement = \"6 MPa\"\n", "triaxial", {"test.confinement=\"7 MPa\""}) ==
         "accepted");
 }

@@ -18,7 +18,9 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
     return std::pair{read_gauge(axial, moved, x), read_gauge(radial, moved, x)};
   };
   // shortened by 2e-3 along z, widened by 5e-4 across; positive in compression
-  const auto [e_z, e_r] = strains([](const Vec3& p) { return Vec3{5e-4 * p.x + 0.01, 5e-4 * p.y - 0.02, -2e-3 * p.z + 0.003}; });
+  const auto [e_z, e_r] = strains([](const Vec3& p) {
+    return Vec3{5e-4 * p.x + 0.01, 5e-4 * p.y - 0.02, -2e-3 * p.z + 0.003};
+  });
   CHECK(std::abs(e_z - 2e-3) < 1e-14);
   CHECK(std::abs(e_r + 5e-4) < 1e-14);
   // a turn about the axis, and shear across it, are no strain of either gauge
@@ -26,11 +28,17 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
   CHECK(std::abs(t_z) < 1e-16);
   CHECK(std::abs(t_r) < 1e-15);
   // the axial gauge reads no further than the middle half
-  const auto [m_z, m_r] = strains([](const Vec3& p) { return Vec3{0, 0, std::abs(p.z) < 0.025 ? 1e-3 * p.z : 7.0}; });
+  const auto [m_z, m_r] = strains([](const Vec3& p) {
+    return Vec3{0, 0, std::abs(p.z) < 0.025 ? 1e-3 * p.z : 7.0};
+  });
   CHECK(std::abs(m_z + 1e-3) < 1e-14);
   CHECK(m_r == 0);
   // and the radial one no further than the middle 40 % of the skin
-  const auto [far, r_r] = strains([](const Vec3& p) { return std::abs(p.z) < 0.02 && at_mantle(scene::small_cylinder(), Space::solid, p, 0, 0.02) ? Vec3{1e-3 * p.x, 1e-3 * p.y, 0} : Vec3{}; });
+  const auto [far, r_r] = strains([](const Vec3& p) {
+    return std::abs(p.z) < 0.02 && at_mantle(scene::small_cylinder(), Space::solid, p, 0, 0.02)
+               ? Vec3{1e-3 * p.x, 1e-3 * p.y, 0}
+               : Vec3{};
+  });
   CHECK(far == 0);
   CHECK(r_r < 0);
   for (const Row row : radial.rows) {
@@ -39,7 +47,8 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
   }
 }
 
-TEST_CASE("gauges: of a standing disc and of a rectangle in a plane the widening along x alone [MODEL 10 1e-14]") {
+TEST_CASE(
+    "gauges: of a standing disc and of a rectangle in a plane the widening along x alone [MODEL 10 1e-14]") {
   for (const bool disc : {true, false}) {
     Assembly a = assemble(scene::small_packing(400), scene::small_cylinder(), {}, Features{}, 1);
     if (disc)
@@ -48,7 +57,8 @@ TEST_CASE("gauges: of a standing disc and of a rectangle in a plane the widening
       a.space = Space::plane;
     const auto& x = a.particles.reference_position;
     const Gauge g = lateral_gauge(a);
-    std::size_t within = 0;  // all particles of a disc, the skin of others, in the middle 40 % of what is pressed
+    std::size_t within =
+        0;  // all particles of a disc, the skin of others, in the middle 40 % of what is pressed
     for (std::size_t k = 0; k < x.size(); ++k)
       within += std::abs(x[k].z) < 0.2 * (disc ? 0.05 : 0.10) &&
                 (disc || std::binary_search(a.skin.begin(), a.skin.end(), static_cast<Row>(k)));

@@ -6,7 +6,9 @@
 
 using namespace breccia;
 
-TEST_CASE("state hash: 16 hex digits - one bit of any identity - history or state column changes it - scratch and reference and derived do not") {
+TEST_CASE(
+    "state hash: 16 hex digits - one bit of any identity - history or state column changes it - scratch and "
+    "reference and derived do not") {
   Assembly a = assemble(scene::small_packing(150), scene::small_cylinder(), {}, Features{}, 1);
   const auto fill = [](auto& table) {  // also what this scene does not need
     table.for_each_column([&](const ColumnInfo&, auto& column) { column.resize(table.padded); });
@@ -27,7 +29,8 @@ TEST_CASE("state hash: 16 hex digits - one bit of any identity - history or stat
         auto* bytes = reinterpret_cast<unsigned char*>(&column[row]);
         bytes[0] ^= 1;
         if (info.role == Role::identity) bytes[0] ^= 1, bytes[7] ^= 0x40;  // ids stay different
-        const bool saved = info.role == Role::identity || info.role == Role::history || info.role == Role::state;
+        const bool saved =
+            info.role == Role::identity || info.role == Role::history || info.role == Role::state;
         INFO(info.name, " row ", row);
         CHECK((state_hash(changed.particles, changed.bonds) != before) == saved);
         column[row] = kept;
