@@ -25,7 +25,7 @@ def draw_specimen(series, path):
         draw_cut(cut, body, view, frame, factor)
         draw_inside(inside, body, aslant(view), frame, factor)
         heading = [condition(series, confinements[k])] if len(series.runs) > 1 and k in confinements else []
-        heading += [f"axial strain {100 * frame.strain:.2g} %"] if np.isfinite(frame.strain) else []
+        heading += [f"{series.strain_name} {100 * frame.strain:.2g} %"] if np.isfinite(frame.strain) else []
         cut.set_title("\n".join(heading) if stacked else ", ".join(heading), fontsize=10.5, loc="center")
         legend(inside, frame, 1 if stacked else 2)
     scale_bar(pairs[0][0], body, reach)

@@ -51,8 +51,8 @@ def usc(results, pictures):
     axes.plot(100 * strain, curve["axial_stress_Pa"] / MPA, color=SHEAR, label="axial stress")
     axes.plot(100 * strain, deviator, color=TENSION, label="axial - lateral stress")
     axes.plot(100 * strain, curve["confining_stress_Pa"] / MPA, color=SOFT, label="lateral stress")
-    axes.axhline(10, color=SOFT, linewidth=0.9, linestyle="--")
-    axes.plot(100 * grid[onset], smooth[onset], "o", color=TENSION)
+    axes.axhline(10, color=SOFT, linewidth=0.9, linestyle="--", label="wanted onset, 10 MPa of axial - lateral")
+    axes.plot(100 * grid[onset], smooth[onset], "o", color=TENSION, label="onset here")
     axes.legend()
     save(figure, pictures / "cement-usc.png")
     broken = result.run()["broken_tension"] + result.run()["broken_shear"]
