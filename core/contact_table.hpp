@@ -15,6 +15,7 @@ namespace breccia {
   COLUMN(Row,    row_lo,      "1",     scratch,   always,          "row of the end gid_lo")                           \
   COLUMN(Row,    row_hi,      "1",     scratch,   always,          "row of the end gid_hi")                           \
   COLUMN(double, free_length, "m",     history,   always,          "distance below which the pair presses: the initial one of a pair that overlapped unbonded, until it parts, then r_lo + r_hi") \
+  COLUMN(double, arm_offset,  "1",     scratch,   rotation,        "(r_lo - r_hi)/(r_lo + r_hi)/2, as of a bond")     \
   COLUMN(double, stiffness,   "N/m",   reference, always,          "k_n = E A/(r_lo + r_hi)")                         \
   COLUMN(double, damping,     "N s/m", reference, contact_damping, "c_n as of a bond")                                \
   COLUMN(Vec3,   shear_force, "N",     history,   always,          "friction force on lo")

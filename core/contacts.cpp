@@ -122,6 +122,7 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
     contacts.row_hi[k] = hi;
     contacts.stiffness[k] = material.young * material.alpha *
                             (material.space == Space::plane ? 2.0 * smaller : pi * smaller * smaller) / touch;
+    if (features.rotation) contacts.arm_offset[k] = 0.5 * (p.radius[lo] - p.radius[hi]) / touch;
     if (features.contact_damping)
       contacts.damping[k] =
           2.0 * material.damping *

@@ -43,6 +43,7 @@ struct Ends {
   Row lo, hi;
   bool wall;
   double inertia;
+  double arm_offset;  ///< the arm of lo is 1/2 + this of the distance
 };
 
 Vec3 law_force(const ImpactWorld& w, const ImpactContactTable& t, std::size_t k, double overlap,
@@ -100,14 +101,14 @@ void press(ImpactWorld& w, ImpactContactTable& t, std::size_t k, const Ends& end
   const ContactSlopes slopes = slopes_at(w.scene.law, {t.normal[k], t.tangential[k], t.damping[k]}, overlap);
   t.rolling[k] = carry<true>(t.rolling[k], pair);
   t.rolling[k] = rolling_torque(w, t, k, ends, rolling, slopes.normal, pressed);
-  const Vec3 turn = pair.arm_ratio * cross(pair.normal, force);  // per metre of radius, the same at both ends
+  const Vec3 moment = pair.distance * cross(pair.normal, force);
   const double demand = step_demand(slopes, w.dt);
   p.force[ends.lo] += force;
-  p.torque[ends.lo] += p.radius[ends.lo] * turn + t.rolling[k];
+  p.torque[ends.lo] += (0.5 + ends.arm_offset) * moment + t.rolling[k];
   w.demand[ends.lo] += ends.wall ? demand : 2.0 * demand;
   if (!ends.wall) {
     p.force[ends.hi] -= force;
-    p.torque[ends.hi] += p.radius[ends.hi] * turn - t.rolling[k];
+    p.torque[ends.hi] += (0.5 - ends.arm_offset) * moment - t.rolling[k];
     w.demand[ends.hi] += 2.0 * demand;
   }
   note(w, t, k, ends, pressed);
@@ -119,7 +120,7 @@ void part(ImpactContactTable& t, std::size_t k) {
 }
 
 End<double> end_of(const ParticleTable& p, Row row) {
-  return {p.position[row], p.velocity[row], p.spin[row], p.radius[row]};
+  return {p.position[row], p.velocity[row], p.spin[row]};
 }
 
 void pair_forces(ImpactWorld& w) {
@@ -133,10 +134,11 @@ void pair_forces(ImpactWorld& w) {
       part(t, k);
       continue;
     }
-    const Pair<double> pair = relative_motion<true>(end_of(p, i), end_of(p, j), w.dt);
+    const double arm_offset = 0.5 * (p.radius[i] - p.radius[j]) / touch;
+    const Pair<double> pair = relative_motion<true>(end_of(p, i), end_of(p, j), arm_offset, w.dt);
     const double one = inertia(sphere_inertia_factor, p.mass[i], p.radius[i]),
                  other = inertia(sphere_inertia_factor, p.mass[j], p.radius[j]);
-    press(w, t, k, {i, j, false, one * other / (one + other)}, touch - pair.distance, pair,
+    press(w, t, k, {i, j, false, one * other / (one + other), arm_offset}, touch - pair.distance, pair,
           rolling_spin(p.spin[i], p.spin[j], pair.normal));
   }
 }
@@ -168,13 +170,15 @@ void wall_force(ImpactWorld& w, const Touch& touch) {
   const ParticleTable& p = w.particles;
   const Row i = w.walls.row[touch.contact];
   const Wall& wall = w.scene.walls[w.walls.partner[touch.contact]].shape;
-  // a wall is an end of no radius at the nearest point, so that the whole arm is the particle's
+  constexpr double whole_arm = 0.5;  // is the particle's: the wall is an end at the nearest point
   Pair<double> pair =
-      relative_motion<true>(end_of(p, i), End<double>{touch.nearest.point, {}, {}, 0.0}, w.dt);
+      relative_motion<true>(end_of(p, i), End<double>{touch.nearest.point, {}, {}}, whole_arm, w.dt);
   const Vec3 before = p.position[i] - w.dt * p.velocity[i];
   const Vec3 l = nearest_on_wall(wall, before).point - before;  // the nearest point wanders along the wall
   pair.normal_before = (1.0 / norm(l)) * l;
-  press(w, w.walls, touch.contact, {i, 0, true, inertia(sphere_inertia_factor, p.mass[i], p.radius[i])},
+  pair.turn_cosine = dot(pair.normal_before, pair.normal);
+  press(w, w.walls, touch.contact,
+        {i, 0, true, inertia(sphere_inertia_factor, p.mass[i], p.radius[i]), whole_arm},
         p.radius[i] - touch.distance, pair, rolling_spin(p.spin[i], {}, pair.normal));
 }
 
@@ -266,6 +270,7 @@ void record(ImpactWorld& w, ImpactResult& result) {
 
 void integrate(ImpactWorld& w) {
   ParticleTable& p = w.particles;
+  static const IntegrateFree integrate_free = integrate_free_for(best_instruction_set());
   integrate_free({p.position, p.velocity, p.spin, p.force, p.torque, p.mass, p.radius}, 0, p.size, w.dt, {});
 }
 

@@ -56,7 +56,8 @@ void plan_private(ScatterPlan& plan, std::span<const Index> row_lo, std::span<co
 }
 
 void plan_gather(ScatterPlan& plan, std::span<const Index> row_lo, std::span<const Index> row_hi,
-                 std::span<const Gid> gid_lo, std::span<const Gid> gid_hi, std::size_t particles) {
+                 std::span<const Gid> gid_lo, std::span<const Gid> gid_hi, std::span<const double> arm_offset,
+                 std::size_t particles) {
   plan.first_entry.assign(particles + 1, 0);
   for (std::size_t b = 0; b < gid_lo.size(); ++b) {
     ++plan.first_entry[row_lo[b] + 1];
@@ -75,6 +76,9 @@ void plan_gather(ScatterPlan& plan, std::span<const Index> row_lo, std::span<con
                 const auto other = [&](Index e) { return e & 1u ? gid_lo[e >> 1] : gid_hi[e >> 1]; };
                 return other(a) < other(b);
               });
+  if (arm_offset.empty()) return;
+  for (const Index e : plan.entries)
+    plan.entry_share.push_back(0.5 + (e & 1u ? -arm_offset[e >> 1] : arm_offset[e >> 1]));
 }
 
 }  // namespace
@@ -83,16 +87,17 @@ std::size_t ScatterPlan::first(int range) const { return range_first(rows, range
 
 ScatterPlan plan_scatter(ScatterKind kind, int ranges, std::size_t batch, std::span<const Index> row_lo,
                          std::span<const Index> row_hi, std::span<const Gid> gid_lo,
-                         std::span<const Gid> gid_hi, std::size_t particles, bool torques) {
+                         std::span<const Gid> gid_hi, std::span<const double> arm_offset,
+                         std::size_t particles) {
   ScatterPlan plan;
   plan.kind = kind;
   plan.ranges = ranges;
   plan.batch = batch;
   plan.rows = row_lo.size();
   if (kind == ScatterKind::gather) {
-    plan_gather(plan, row_lo, row_hi, gid_lo, gid_hi, particles);
+    plan_gather(plan, row_lo, row_hi, gid_lo, gid_hi, arm_offset, particles);
     plan.bond_force.resize(plan.rows);
-    if (torques) plan.bond_turn.resize(plan.rows);
+    if (!arm_offset.empty()) plan.bond_moment.resize(plan.rows);
     return plan;
   }
   if (ranges <= 1) return plan;
@@ -111,16 +116,14 @@ ScatterPlan plan_scatter(ScatterKind kind, int ranges, std::size_t batch, std::s
 }
 
 Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span<const Index> row_hi,
-                     ParticleTable& particles) {
+                     std::span<const double> arm_offset, ParticleTable& particles) {
   Scatter view;
   view.mode = plan.kind == ScatterKind::gather                      ? ScatterMode::columns
               : plan.kind == ScatterKind::atomic && plan.ranges > 1 ? ScatterMode::atomic
                                                                     : ScatterMode::own;
-  view.row_lo = row_lo;
-  view.row_hi = row_hi;
   view.to_lo = plan.to_lo.empty() ? row_lo : std::span<const Index>(plan.to_lo);
   view.to_hi = plan.to_hi.empty() ? row_hi : std::span<const Index>(plan.to_hi);
-  view.radius = particles.radius;
+  view.arm_offset = arm_offset;
   // the ranges' own sums are rows past the particles
   if (particles.force.size() < particles.size + plan.slot_count)
     particles.force.resize(particles.size + plan.slot_count);
@@ -130,7 +133,7 @@ Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span
     view.torque = particles.torque;
   }
   view.bond_force = plan.bond_force;
-  view.bond_turn = plan.bond_turn;
+  view.bond_moment = plan.bond_moment;
   return view;
 }
 
@@ -139,14 +142,14 @@ void collect(ScatterPlan& plan, ParticleTable& particles, int threads) {
   if (plan.kind == ScatterKind::gather) {
     for_rows(particles.size, threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t p = first; p < last; ++p) {
-        Vec3 force, turn;
+        Vec3 force, torque;
         for (Index e = plan.first_entry[p]; e < plan.first_entry[p + 1]; ++e) {
           const Index entry = plan.entries[e], bond = entry >> 1;
           force += (entry & 1u ? -1.0 : 1.0) * plan.bond_force[bond];
-          if (torques) turn += plan.bond_turn[bond];
+          if (torques) torque += plan.entry_share[e] * plan.bond_moment[bond];
         }
         particles.force[p] += force;
-        if (torques) particles.torque[p] += particles.radius[p] * turn;
+        if (torques) particles.torque[p] += torque;
       }
     });
     return;

@@ -23,19 +23,22 @@ struct ScatterPlan {
   /// gather: particle p sums entries[first_entry[p] ...): bond row << 1 | particle is hi, in the order of
   /// bonds' ids
   std::vector<Index> first_entry, entries;
-  std::vector<Vec3> bond_force, bond_turn;
+  std::vector<double> entry_share;  ///< of the bond's moment that the particle gets; empty without torques
+  std::vector<Vec3> bond_force, bond_moment;
 
   std::size_t first(int range) const;
 };
 
 /// @param gid_lo, gid_hi  ids of the ends: they order the sums of `gather`
+/// @param arm_offset      lo gets 1/2 + this of a bond's moment, hi the rest; empty where nothing spins
 ScatterPlan plan_scatter(ScatterKind kind, int ranges, std::size_t batch, std::span<const Index> row_lo,
                          std::span<const Index> row_hi, std::span<const Gid> gid_lo,
-                         std::span<const Gid> gid_hi, std::size_t particles, bool torques);
+                         std::span<const Gid> gid_hi, std::span<const double> arm_offset,
+                         std::size_t particles);
 
 /// The view that a pass writes to; valid until the tables change.
 Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span<const Index> row_hi,
-                     ParticleTable& particles);
+                     std::span<const double> arm_offset, ParticleTable& particles);
 
 /// After the pass: adds the ranges' own sums, or the columns of forces, to the particles.
 void collect(ScatterPlan& plan, ParticleTable& particles, int threads);

@@ -15,9 +15,12 @@ void add(std::uint64_t& hash, const Table& table, const std::vector<Row>& order)
   table.for_each_column([&](const ColumnInfo& info, const auto& column) {
     const bool hashed = info.role == Role::identity || info.role == Role::history || info.role == Role::state;
     if (!hashed || column.empty()) return;
+    using Value = std::decay_t<decltype(column[0])>;
+    constexpr std::size_t size =
+        std::is_same_v<Value, Vec3> ? 3 * sizeof(double) : sizeof(Value);  // no padding
     for (const Row row : order) {
-      unsigned char bytes[sizeof(column[row])];
-      std::memcpy(bytes, &column[row], sizeof(bytes));
+      unsigned char bytes[size];
+      std::memcpy(bytes, &column[row], size);
       for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3ull;
     }
   });

@@ -13,8 +13,9 @@ void search_if_due(World& w) {
   if (!search_is_due(w.search, w.particles, w.step, w.dt, w.options.threads)) return;
   const ContactMaterial material{w.material.young_modulus, w.alpha, w.options.contact_damping, w.space};
   renew_contacts(w.search, w.contacts, w.particles, material, w.features, w.options.threads);
-  w.contact_plan = plan_scatter(w.options.scatter, w.options.threads, 1, w.contacts.row_lo, w.contacts.row_hi,
-                                w.contacts.gid_lo, w.contacts.gid_hi, w.particles.size, w.features.rotation);
+  w.contact_plan =
+      plan_scatter(w.options.scatter, w.options.threads, 1, w.contacts.row_lo, w.contacts.row_hi,
+                   w.contacts.gid_lo, w.contacts.gid_hi, w.contacts.arm_offset, w.particles.size);
 }
 
 void confine(World& w) {
@@ -26,10 +27,10 @@ void bond_forces(World& w) {
   const Lap lap(w.phases, Phase::bonds);
   ParticleTable& p = w.particles;
   BondTable& b = w.bonds;
-  const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, p);
+  const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, b.arm_offset, p);
   const BondPassIn in{
-      w.dt,     constants_of(w.law), p.position, p.velocity,        p.spin,      p.radius, b.row_lo,
-      b.row_hi, b.rest_length,       b.area,     strength_areas(b), b.stiffness, b.damping};
+      w.dt,         constants_of(w.law), p.position, p.velocity,        p.spin,      b.row_lo, b.row_hi,
+      b.arm_offset, b.rest_length,       b.area,     strength_areas(b), b.stiffness, b.damping};
   const BondPassHistory history{b.shear_x,         b.shear_y,       b.shear_z,
                                 b.plastic_stretch, b.damage_normal, b.damage_shear};
   for_ranges(w.bond_plan.ranges, [&](int range) {
@@ -44,10 +45,10 @@ void contact_forces(World& w) {
   const Lap lap(w.phases, Phase::contacts);
   ParticleTable& p = w.particles;
   ContactTable& c = w.contacts;
-  const Scatter to = scatter_view(w.contact_plan, c.row_lo, c.row_hi, p);
-  const ContactPassIn in{w.dt,       w.shear_ratio, w.friction,  w.features.rotation,
-                         p.position, p.velocity,    p.spin,      p.radius,
-                         c.row_lo,   c.row_hi,      c.stiffness, c.damping};
+  const Scatter to = scatter_view(w.contact_plan, c.row_lo, c.row_hi, c.arm_offset, p);
+  const ContactPassIn in{
+      w.dt,     w.shear_ratio, w.friction, w.features.rotation, p.position,  p.velocity, p.spin,
+      p.radius, c.row_lo,      c.row_hi,   c.arm_offset,        c.stiffness, c.damping};
   const ContactPassHistory history{c.free_length, c.shear_force};
   for_ranges(w.contact_plan.ranges, [&](int range) {
     contact_pass(in, history, w.contact_plan.first(range), w.contact_plan.first(range + 1), to);
@@ -77,8 +78,9 @@ void integrate(World& w) {
                       p.force,    p.torque,          p.mass,
                       p.radius,   inertia_factor(w), w.options.features.rotation};
   const GlobalDamping& damping = w.options.global_damping;
-  for_rows(p.free, w.options.threads,
-           [&](std::size_t first, std::size_t last) { integrate_free(motion, first, last, w.dt, damping); });
+  for_rows(p.free, w.options.threads, [&](std::size_t first, std::size_t last) {
+    w.integrate_free(motion, first, last, w.dt, damping);
+  });
   integrate_held(motion, p.free, w.first_top, w.dt, damping, {w.platens.velocity[0], !w.platens.rough});
   integrate_held(motion, w.first_top, p.size, w.dt, damping, {w.platens.velocity[1], !w.platens.rough});
 }

@@ -31,6 +31,8 @@ void set_bond_constants(World& w) {
   for (std::size_t k = 0; k < b.padded; ++k) {
     const Row lo = b.row_lo[k], hi = b.row_hi[k];
     b.stiffness[k] = k < b.size ? stiffness[k] : 0.0;  // none for padding
+    if (!b.arm_offset.empty())
+      b.arm_offset[k] = 0.5 * (p.radius[lo] - p.radius[hi]) / (p.radius[lo] + p.radius[hi]);
     if (b.damping.empty()) continue;
     const double reduced_mass = p.mass[lo] * p.mass[hi] / (p.mass[lo] + p.mass[hi]);
     b.damping[k] = 2.0 * w.options.contact_damping * std::sqrt(reduced_mass * b.stiffness[k]);
@@ -86,12 +88,13 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.platens = make_platens(assembly, w.particles, options.rough_platens, material.young_modulus);
   w.confinement = make_confinement(assembly, options.skin_weights, options.rigid_skin);
   w.search = make_contact_search(assembly, options.new_contacts, 0.2 * assembly.mean_radius);
-  const bool torques = w.features.rotation;
   w.cracks = make_crack_record(options.cracks && w.features.breakage, options.threads, w.bonds.size);
-  w.bond_plan = plan_scatter(options.scatter, options.threads, bond_batch, w.bonds.row_lo, w.bonds.row_hi,
-                             std::span(w.bonds.gid_lo).first(w.bonds.size),
-                             std::span(w.bonds.gid_hi).first(w.bonds.size), w.particles.size, torques);
+  w.bond_plan =
+      plan_scatter(options.scatter, options.threads, bond_batch, w.bonds.row_lo, w.bonds.row_hi,
+                   std::span(w.bonds.gid_lo).first(w.bonds.size),
+                   std::span(w.bonds.gid_hi).first(w.bonds.size), w.bonds.arm_offset, w.particles.size);
   w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set);
+  w.integrate_free = integrate_free_for(options.instruction_set);
   return w;
 }
 

@@ -55,6 +55,7 @@ struct World {
   ScatterPlan bond_plan, contact_plan;
   CrackRecord cracks;
   BondPass bond_pass = nullptr;
+  IntegrateFree integrate_free = nullptr;
   Phases phases;
 };
 

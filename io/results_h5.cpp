@@ -24,7 +24,6 @@ template <>
 constexpr h5::Number number_of<Gid> = h5::Number::id;
 template <>
 constexpr h5::Number number_of<std::uint8_t> = h5::Number::byte;
-static_assert(sizeof(Vec3) == 3 * sizeof(double), "a Vec3 is written as three numbers");
 template <class T>
 constexpr std::size_t components_of = 1;
 template <>
@@ -35,8 +34,18 @@ bool changes(Role role) { return role == Role::history || role == Role::state ||
 
 template <class T>
 void write_rows(hid_t group, const ColumnInfo& info, std::string_view role, const std::vector<T>& rows) {
-  h5::write_dataset(group, {std::string(info.name), info.unit, role, info.meaning, number_of<T>, rows.size(),
-                            components_of<T>, rows.data()});
+  const auto write = [&](const void* numbers) {
+    h5::write_dataset(group, {std::string(info.name), info.unit, role, info.meaning, number_of<T>,
+                              rows.size(), components_of<T>, numbers});
+  };
+  if constexpr (std::is_same_v<T, Vec3>) {
+    std::vector<double> packed;  // three numbers a row, without what fills a Vec3 up
+    packed.reserve(3 * rows.size());
+    for (const Vec3& v : rows) packed.insert(packed.end(), {v.x, v.y, v.z});
+    write(packed.data());
+  } else {
+    write(rows.data());
+  }
 }
 
 /// One dataset for each column of a wanted role that the scene has, its rows in the given order.

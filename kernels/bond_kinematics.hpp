@@ -11,7 +11,6 @@ struct End {
   Vec<R> x;  ///< m
   Vec<R> v;  ///< m/s
   Vec<R> w;  ///< 1/s
-  R radius;  ///< m
 };
 
 /// The pair seen from `lo`: every difference is hi minus lo.
@@ -20,34 +19,37 @@ struct Pair {
   R distance;            ///< m, between the centres
   Vec<R> normal;         ///< from lo to hi
   Vec<R> normal_before;  ///< one step ago
+  R turn_cosine;         ///< of the angle between the two
   R rate;                ///< m/s, of elongation
   Vec<R> slip;           ///< m, tangential displacement of this step
   R twist;               ///< rad, mean turn of both ends about the normal in this step
-  R arm_ratio;           ///< d/(r_lo + r_hi): arms are radius * arm_ratio, their sum is the distance
 };
 
-/// @param rotation  false: spins are taken as zero and cost nothing
+/// @param rotation   false: spins are taken as zero and cost nothing
+/// @param arm_offset  of the distance, 1/2 + this is the arm of lo, 1/2 - this that of hi
 template <bool rotation, class R>
-inline Pair<R> relative_motion(const End<R>& lo, const End<R>& hi, double dt) {
+inline Pair<R> relative_motion(const End<R>& lo, const End<R>& hi, const R& arm_offset, double dt) {
   const Vec<R> l = hi.x - lo.x;
   const Vec<R> dv = hi.v - lo.v;
   const R step = dt;
   Pair<R> p;
-  p.distance = square_root(dot(l, l));
-  p.normal = (R(1.0) / p.distance) * l;
+  // a step turns and stretches a pair little, so the distance before it, d0, needs neither root nor division:
+  // d/d0 is a short series. Products that do not wait for each other come first
   const Vec<R> before = l - step * dv;
-  p.normal_before = (R(1.0) / square_root(dot(before, before))) * before;
+  const R square = dot(l, l), per_square = R(1.0) / square;
+  p.distance = square_root(square);
+  const R per_distance = p.distance * per_square;
+  const R shrunk = inverse_root_near_one(dot(before, before) * per_square);
+  p.normal = per_distance * l;
+  p.normal_before = (per_distance * shrunk) * before;
+  p.turn_cosine = dot(before, l) * per_square * shrunk;
   p.rate = dot(dv, p.normal);
-  p.arm_ratio = p.distance / (lo.radius + hi.radius);
   Vec<R> at_contact = dv - p.rate * p.normal;
   if constexpr (rotation) {
     // arms times spins, as mean and difference of the ends: the same bits whichever end comes first, also
     // where the compiler fuses a product with a sum
     const Vec<R> both = lo.w + hi.w;
-    const R half(0.5);
-    const Vec<R> spins =
-        (half * p.distance) * both + (half * p.arm_ratio * (lo.radius - hi.radius)) * (lo.w - hi.w);
-    at_contact -= cross(spins, p.normal);
+    at_contact -= cross(R(0.5) * both + arm_offset * (lo.w - hi.w), l);
     p.twist = R(0.5 * dt) * dot(both, p.normal);
   }
   p.slip = step * at_contact;
@@ -58,14 +60,14 @@ inline Pair<R> relative_motion(const End<R>& lo, const End<R>& hi, double dt) {
 /// Its length does not change.
 template <bool rotation, class R>
 inline Vec<R> carry(const Vec<R>& f, const Pair<R>& p) {
-  const R along = dot(f, p.normal) / (R(1.0) + dot(p.normal_before, p.normal));
+  const R along = R(0.5) * dot(f, p.normal) * inverse_near_one(R(0.5) + R(0.5) * p.turn_cosine);
   Vec<R> turned = f - along * (p.normal_before + p.normal);
   if constexpr (rotation) {
     // tan(twist/2) to fifth order; cosine and sine below are of one angle, so the length stays
-    const R half = R(0.5) * p.twist;
-    const R t = half + R(1.0 / 3.0) * half * half * half;
-    const R s = R(1.0) / (R(1.0) + t * t);
-    turned = ((R(1.0) - t * t) * s) * turned + (R(2.0) * t * s) * cross(p.normal, turned);
+    const R half = R(0.5) * p.twist, half2 = half * half;
+    const R t = half + R(1.0 / 3.0) * half * half2, t2 = t * t;
+    const R s = inverse_near_one(R(1.0) + t2);
+    turned = ((R(1.0) - t2) * s) * turned + (R(2.0) * t * s) * cross(p.normal, turned);
   }
   return turned;
 }

@@ -2,37 +2,25 @@
 // function built for wide registers can be linked into code that runs without them.
 #include "kernels/bond_pass.hpp"
 
-#include <experimental/simd>
-
 #include "kernels/bond_force.hpp"
 #include "kernels/kernel_list.hpp"
+#include "kernels/lane_rows.hpp"
+#include "kernels/scatter_block.hpp"
 
 namespace breccia::BRECCIA_ISA {
 namespace {
 
-using Lanes = std::experimental::native_simd<double>;
-constexpr std::size_t width = Lanes::size();
 static_assert(bond_batch % width == 0 && ForceBlock::capacity % bond_batch == 0);
 
 Lanes load(const double* p) { return Lanes(p, std::experimental::element_aligned); }
 void store(const Lanes& r, double* p) { r.copy_to(p, std::experimental::element_aligned); }
 
-[[gnu::always_inline]] inline Lanes gather(const double* column, const Index* rows) {
-  return Lanes([&](auto k) [[gnu::always_inline]] { return column[rows[k]]; });
-}
-[[gnu::always_inline]] inline Vec<Lanes> gather(const Vec3* column, const Index* rows) {
-  return {Lanes([&](auto k) [[gnu::always_inline]] { return column[rows[k]].x; }),
-          Lanes([&](auto k) [[gnu::always_inline]] { return column[rows[k]].y; }),
-          Lanes([&](auto k) [[gnu::always_inline]] { return column[rows[k]].z; })};
-}
-
 template <Features features>
 [[gnu::always_inline]] inline End<Lanes> end_of(const BondPassIn& in, const Index* rows) {
   End<Lanes> e;
-  e.x = gather(in.position.data(), rows);
-  e.v = gather(in.velocity.data(), rows);
-  if constexpr (features.rotation) e.w = gather(in.spin.data(), rows);
-  e.radius = gather(in.radius.data(), rows);
+  e.x = fetch_rows(in.position.data(), rows);
+  e.v = fetch_rows(in.velocity.data(), rows);
+  if constexpr (features.rotation) e.w = fetch_rows(in.spin.data(), rows);
   return e;
 }
 
@@ -65,8 +53,11 @@ template <class Law, Features features>
     const std::size_t count = last - first < ForceBlock::capacity ? last - first : ForceBlock::capacity;
     for (std::size_t k = 0; k < count; k += width) {
       const std::size_t b = first + k;
-      const Pair<Lanes> pair = relative_motion<features.rotation>(
-          end_of<features>(in, in.row_lo.data() + b), end_of<features>(in, in.row_hi.data() + b), in.dt);
+      Lanes arm_offset(0.0);
+      if constexpr (features.rotation) arm_offset = load(in.arm_offset.data() + b);
+      const Pair<Lanes> pair =
+          relative_motion<features.rotation>(end_of<features>(in, in.row_lo.data() + b),
+                                             end_of<features>(in, in.row_hi.data() + b), arm_offset, in.dt);
       BondConstants<Lanes> bond{load(in.rest_length.data() + b), load(in.area.data() + b),
                                 load(in.strength_area.data() + b), load(in.stiffness.data() + b), Lanes(0.0)};
       if constexpr (features.contact_damping) bond.damping = load(in.damping.data() + b);
@@ -79,34 +70,27 @@ template <class Law, Features features>
         h.damage_shear = load(history.damage_shear.data() + b);
       }
 
-      [[maybe_unused]] const BondHistory<Lanes> before = h;
+      const BondHistory<Lanes> before = h;
       const Vec<Lanes> force = bond_force<features>(law, bond, pair, h);
 
       store(h.shear.x, history.shear_x.data() + b);
       store(h.shear.y, history.shear_y.data() + b);
       store(h.shear.z, history.shear_z.data() + b);
-      if constexpr (features.plasticity) store(h.plastic_stretch, history.plastic_stretch.data() + b);
-      if constexpr (features.breakage) {
-        store(h.damage_normal, history.damage_normal.data() + b);
-        store(h.damage_shear, history.damage_shear.data() + b);
-        if (notes) {
-          const Lanes one(1.0);
-          const auto broke = (h.damage_normal >= one || h.damage_shear >= one) &&
-                             !(before.damage_normal >= one || before.damage_shear >= one);
-          if (any(broke)) note_breaks<features>(history, before, b, *notes);
+      // most batches neither yield nor break in a step: what stays is not written
+      if constexpr (features.plasticity)
+        if (any(h.plastic_stretch != before.plastic_stretch))
+          store(h.plastic_stretch, history.plastic_stretch.data() + b);
+      if constexpr (features.breakage)
+        if (any(h.damage_normal != before.damage_normal || h.damage_shear != before.damage_shear)) {
+          store(h.damage_normal, history.damage_normal.data() + b);
+          store(h.damage_shear, history.damage_shear.data() + b);
+          if (notes) note_breaks<features>(history, before, b, *notes);
         }
-      }
-      store(force.x, block.fx + k);
-      store(force.y, block.fy + k);
-      store(force.z, block.fz + k);
-      if constexpr (features.rotation) {
-        const Vec<Lanes> turn = pair.arm_ratio * cross(pair.normal, force);
-        store(turn.x, block.tx + k);
-        store(turn.y, block.ty + k);
-        store(turn.z, block.tz + k);
-      }
+      store_rows(force, block.force + k);
+      if constexpr (features.rotation)
+        store_rows(pair.distance * cross(pair.normal, force), block.moment + k);
     }
-    scatter(to, block, first, count);
+    scatter_block(to, block, first, count);
     first += count;
   }
 }

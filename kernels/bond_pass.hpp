@@ -3,9 +3,9 @@
 #pragma once
 #include <cstddef>
 #include <span>
-#include <string_view>
 
 #include "kernels/bond_laws.hpp"
+#include "kernels/instruction_set.hpp"
 #include "kernels/scatter.hpp"
 
 namespace breccia {
@@ -18,9 +18,8 @@ struct BondPassIn {
   double dt = 0;              ///< s
   const void* law = nullptr;  ///< constants, of the type that the kernel was chosen for (see constants_of)
   std::span<const Vec3> position, velocity, spin;
-  std::span<const double> radius;
   std::span<const Index> row_lo, row_hi;
-  std::span<const double> rest_length, area, strength_area, stiffness, damping;
+  std::span<const double> arm_offset, rest_length, area, strength_area, stiffness, damping;
 };
 
 /// What the pass changes; columns of absent features are empty.
@@ -44,13 +43,6 @@ struct BreakNotes {
 /// Bonds [first, last), both multiples of `bond_batch`. Breaks are noted unless the pointer is null.
 using BondPass = void (*)(const BondPassIn&, const BondPassHistory&, std::size_t first, std::size_t last,
                           const Scatter&, BreakNotes*);
-
-enum class InstructionSet { x86_64, x86_64_v3, x86_64_v4 };
-
-std::string_view name_of(InstructionSet);
-
-/// The widest set that this processor runs.
-InstructionSet best_instruction_set();
 
 /// The feature set that will run for a scene: the one asked for, or its nearest superset that is built for
 /// the law.

@@ -4,18 +4,18 @@ namespace breccia {
 namespace {
 
 template <bool rotation>
-Vec3 pressed_force(const ContactPassIn& in, const ContactPassHistory& history, std::size_t c, Vec3& turn) {
+Vec3 pressed_force(const ContactPassIn& in, const ContactPassHistory& history, std::size_t c, Vec3& moment) {
   const Index i = in.row_lo[c], j = in.row_hi[c];
   const auto end = [&](Index row) {
-    return End<double>{in.position[row], in.velocity[row], rotation ? in.spin[row] : Vec3{}, in.radius[row]};
+    return End<double>{in.position[row], in.velocity[row], rotation ? in.spin[row] : Vec3{}};
   };
-  const Pair<double> pair = relative_motion<rotation>(end(i), end(j), in.dt);
+  const Pair<double> pair = relative_motion<rotation>(end(i), end(j), in.arm_offset[c], in.dt);
   Vec3& shear = history.shear_force[c];
   const ContactConstants contact{in.stiffness[c], in.shear_ratio, in.damping.empty() ? 0.0 : in.damping[c],
                                  in.friction};
   shear = carry<rotation>(shear, pair) + (contact.shear_ratio * contact.stiffness) * pair.slip;
   const Vec3 force = linear_contact_force(contact, history.free_length[c] - pair.distance, pair, shear);
-  turn = pair.arm_ratio * cross(pair.normal, force);
+  moment = pair.distance * cross(pair.normal, force);
   return force;
 }
 
@@ -31,10 +31,10 @@ void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, st
       const std::size_t c = first + k;
       const Vec3 l = in.position[in.row_hi[c]] - in.position[in.row_lo[c]];
       const double reach = history.free_length[c];
-      Vec3 force, turn;
+      Vec3 force, moment;
       if (dot(l, l) < reach * reach) {
-        force = in.rotation ? pressed_force<true>(in, history, c, turn)
-                            : pressed_force<false>(in, history, c, turn);
+        force = in.rotation ? pressed_force<true>(in, history, c, moment)
+                            : pressed_force<false>(in, history, c, moment);
         pressed = true;
       } else {
         history.shear_force[c] = {};
@@ -42,8 +42,8 @@ void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, st
         const double touch = in.radius[in.row_lo[c]] + in.radius[in.row_hi[c]];
         if (dot(l, l) >= touch * touch) history.free_length[c] = touch;
       }
-      block.fx[k] = force.x, block.fy[k] = force.y, block.fz[k] = force.z;
-      block.tx[k] = turn.x, block.ty[k] = turn.y, block.tz[k] = turn.z;
+      block.force[k] = force;
+      block.moment[k] = moment;
     }
     if (pressed || to.mode == ScatterMode::columns) scatter(to, block, first, count);
     first += count;

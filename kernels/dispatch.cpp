@@ -1,20 +1,24 @@
-// Chooses the kernel of the bond pass: by the scene's features and the processor, once at start.
+// Chooses the wide loops: by the scene's features and the processor, once at start.
 #include <stdexcept>
 
 #include "kernels/bond_pass.hpp"
+#include "kernels/integrate.hpp"
 #include "kernels/kernel_list.hpp"
 
 namespace breccia {
 
 namespace x86_64 {
 extern const std::array<BondPass, kernel_list.size()> passes;
-}
+void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+}  // namespace x86_64
 namespace x86_64_v3 {
 extern const std::array<BondPass, kernel_list.size()> passes;
-}
+void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+}  // namespace x86_64_v3
 namespace x86_64_v4 {
 extern const std::array<BondPass, kernel_list.size()> passes;
-}
+void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+}  // namespace x86_64_v4
 
 std::string_view name_of(InstructionSet set) {
   switch (set) {
@@ -32,6 +36,18 @@ InstructionSet best_instruction_set() {
   if (__builtin_cpu_supports("x86-64-v4")) return InstructionSet::x86_64_v4;
   if (__builtin_cpu_supports("x86-64-v3")) return InstructionSet::x86_64_v3;
   return InstructionSet::x86_64;
+}
+
+IntegrateFree integrate_free_for(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::x86_64:
+      return x86_64::integrate_free;
+    case InstructionSet::x86_64_v3:
+      return x86_64_v3::integrate_free;
+    case InstructionSet::x86_64_v4:
+      return x86_64_v4::integrate_free;
+  }
+  throw std::invalid_argument("no such instruction set");
 }
 
 Features built_features(const BondLaw& law, const Features& asked) {

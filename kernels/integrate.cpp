@@ -16,17 +16,6 @@ void kick_spin(const Motion& m, std::size_t row, double dt, double alpha) {
 
 }  // namespace
 
-void integrate_free(const Motion& m, std::size_t first, std::size_t last, double dt,
-                    const GlobalDamping& damping) {
-  for (std::size_t row = first; row < last; ++row) {
-    const Vec3 force = damped(m.force[row], m.velocity[row], damping.translation);
-    m.velocity[row] += (dt / m.mass[row]) * force;
-    m.position[row] += dt * m.velocity[row];
-    m.force[row] = {};
-    kick_spin(m, row, dt, damping.rotation);
-  }
-}
-
 void integrate_held(const Motion& m, std::size_t first, std::size_t last, double dt,
                     const GlobalDamping& damping, const HeldMotion& held) {
   for (std::size_t row = first; row < last; ++row) {

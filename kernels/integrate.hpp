@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "kernels/instruction_set.hpp"
 #include "kernels/vec3.hpp"
 
 namespace breccia {
@@ -29,8 +30,9 @@ struct Motion {
 };
 
 /// Kick and drift of rows [first, last) that move freely.
-void integrate_free(const Motion& m, std::size_t first, std::size_t last, double dt,
-                    const GlobalDamping& damping);
+using IntegrateFree = void (*)(const Motion& m, std::size_t first, std::size_t last, double dt,
+                               const GlobalDamping& damping);
+IntegrateFree integrate_free_for(InstructionSet set);
 
 /// Motion that a body's rows share: z is prescribed; x and y too, unless they are free.
 struct HeldMotion {

@@ -49,6 +49,27 @@ inline R square_root(const R& a) {
   return sqrt(a);
 }
 
+/// 1/x, to an ulp; without a division where every lane is within 1e-4 of 1. A lane's value does not depend on
+/// its neighbours.
+template <class R>
+inline R inverse_near_one(const R& x) {
+  const R one(1.0), e = one - x, e2 = e * e;
+  R y = (one + e) + e2 * (one + e);
+  const auto far = e2 > R(1e-8);
+  if (any(far)) y = select(far, one / x, y);
+  return y;
+}
+
+/// 1/sqrt(x) in the same way.
+template <class R>
+inline R inverse_root_near_one(const R& x) {
+  const R one(1.0), e = one - x, e2 = e * e;
+  R y = (one + R(1.0 / 2) * e) + e2 * (R(3.0 / 8) + R(5.0 / 16) * e);
+  const auto far = e2 > R(1e-8);
+  if (any(far)) y = select(far, one / square_root(x), y);
+  return y;
+}
+
 /// exp(x) for |x| of a few, to some units in the last place: Taylor's series of x/16, squared four times. No
 /// call to the maths library, so it stays in the register.
 template <class R>

@@ -10,29 +10,29 @@ namespace breccia {
 
 using Index = std::uint32_t;
 
-/// Forces of up to 64 consecutive bonds, as the law leaves them: on lo, and the torque per metre of radius,
-/// which is the same at both ends (torque = radius * turn).
+/// Forces of up to 64 consecutive bonds, as the law leaves them.
 struct ForceBlock {
   static constexpr std::size_t capacity = 64;
-  alignas(64) double fx[capacity], fy[capacity], fz[capacity];
-  alignas(64) double tx[capacity], ty[capacity], tz[capacity];
+  alignas(64) Vec3 force[capacity];  ///< N, on lo; on hi the opposite
+  Vec3 moment[capacity];             ///< N m, branch x force: each end gets its share of it
 };
 
 /// Where a range of bonds may add its forces.
 /// own:     plain adds to rows `to_lo`, `to_hi` that no other range touches (particles, or the range's own
-/// sums) atomic:  as own, but a row with the top bit set is a particle that other ranges touch too: added
-/// atomically columns: one force and turn per bond, summed later in a fixed order
+///          sums)
+/// atomic:  as own, but a row with the top bit set is a particle that other ranges touch too: added
+///          atomically
+/// columns: one force and moment per bond, summed later in a fixed order
 enum class ScatterMode : unsigned char { own, atomic, columns };
 
 inline constexpr Index shared_row = 0x80000000u;
 
 struct Scatter {
   ScatterMode mode = ScatterMode::own;
-  std::span<const Index> row_lo, row_hi;  ///< particle rows of the ends
-  std::span<const Index> to_lo, to_hi;    ///< rows to add to
-  std::span<const double> radius;         ///< m, per particle
-  std::span<Vec3> force, torque;          ///< N, N m; torque is empty where nothing spins
-  std::span<Vec3> bond_force, bond_turn;  ///< columns: per bond
+  std::span<const Index> to_lo, to_hi;      ///< rows to add to
+  std::span<const double> arm_offset;       ///< per bond: lo gets 1/2 + this of the moment, hi the rest
+  std::span<Vec3> force, torque;            ///< N, N m; torque is empty where nothing spins
+  std::span<Vec3> bond_force, bond_moment;  ///< columns: per bond
 };
 
 /// Adds `count` forces of bonds [first, first + count).

@@ -1,12 +1,14 @@
 // Vectors of three components, over doubles or over wide registers of doubles.
 #pragma once
 #include <cmath>
+#include <type_traits>
 
 namespace breccia {
 
-/// Three components of any number type: `Vec<double>` for one particle, `Vec<simd>` for a batch of them.
+/// Three components of any number type: `Vec<double>` for one particle, `Vec<simd>` for a batch of them. One
+/// of doubles fills 32 bytes and is so aligned: it is one load, and never lies across two lines of the cache.
 template <class R>
-struct Vec {
+struct alignas(std::is_same_v<R, double> ? 32 : alignof(R)) Vec {
   R x{}, y{}, z{};
 
   constexpr Vec& operator+=(const Vec& b) {

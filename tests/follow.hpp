@@ -73,8 +73,8 @@ std::vector<std::vector<Outcome>> follow(const Law& law, const std::vector<BondC
       pair.distance = spread<R>([&](std::size_t k) { return bonds[item(k)].rest_length + now(k).u; });
       pair.normal = pair.normal_before = {R(1.0), R(0.0), R(0.0)};
       pair.rate = R(0.0);
+      pair.turn_cosine = R(1.0);
       pair.twist = R(0.0);
-      pair.arm_ratio = R(1.0);
       pair.slip = {R(0.0), spread<R>([&](std::size_t k) { return now(k).y - before(k).y; }),
                    spread<R>([&](std::size_t k) { return now(k).z - before(k).z; })};
       const Vec<R> force = bond_force<features>(law, c, pair, h);

@@ -158,8 +158,8 @@ inline reference::World to_reference(const World& w, const reference::Parameters
 inline BondPassIn bond_pass_in(const World& w) {
   const ParticleTable& p = w.particles;
   const BondTable& b = w.bonds;
-  return {w.dt,     constants_of(w.law), p.position, p.velocity,        p.spin,      p.radius, b.row_lo,
-          b.row_hi, b.rest_length,       b.area,     strength_areas(b), b.stiffness, b.damping};
+  return {w.dt,         constants_of(w.law), p.position, p.velocity,        p.spin,      b.row_lo, b.row_hi,
+          b.arm_offset, b.rest_length,       b.area,     strength_areas(b), b.stiffness, b.damping};
 }
 inline BondPassHistory bond_history(BondTable& b) {
   return {b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear};
@@ -183,13 +183,13 @@ inline Forces forces_now(World w) {  // a copy: history advances
   Forces f{std::vector<Vec3>(p.size), std::vector<Vec3>(p.spin.empty() ? 0 : p.size)};
   BondTable& b = w.bonds;
   Scatter to;
-  to.row_lo = to.to_lo = b.row_lo, to.row_hi = to.to_hi = b.row_hi;
-  to.radius = p.radius, to.force = f.force, to.torque = f.torque;
+  to.to_lo = b.row_lo, to.to_hi = b.row_hi, to.arm_offset = b.arm_offset;
+  to.force = f.force, to.torque = f.torque;
   w.bond_pass(bond_pass_in(w), bond_history(b), 0, b.padded, to, nullptr);
   ContactTable& c = w.contacts;
-  to.row_lo = to.to_lo = c.row_lo, to.row_hi = to.to_hi = c.row_hi;
+  to.to_lo = c.row_lo, to.to_hi = c.row_hi, to.arm_offset = c.arm_offset;
   contact_pass({w.dt, w.shear_ratio, w.friction, w.features.rotation, p.position, p.velocity, p.spin,
-                p.radius, c.row_lo, c.row_hi, c.stiffness, c.damping},
+                p.radius, c.row_lo, c.row_hi, c.arm_offset, c.stiffness, c.damping},
                {c.free_length, c.shear_force}, 0, c.size, to);
   return f;
 }

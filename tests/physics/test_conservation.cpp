@@ -134,7 +134,7 @@ TEST_CASE(
     std::fill(w.bonds.damping.begin(), w.bonds.damping.end(), 0.0);
     Scatter to;
     std::vector<Vec3> force(w.bonds.padded), turn(w.bonds.padded);
-    to.mode = ScatterMode::columns, to.bond_force = force, to.bond_turn = turn;
+    to.mode = ScatterMode::columns, to.bond_force = force, to.bond_moment = turn;
     for (int k = 1; k <= steps; ++k) {
       for (std::size_t row = 0; row < w.particles.size; ++row) {
         const Vec3 now = turned(w.particles.reference_position[row], k * t1);

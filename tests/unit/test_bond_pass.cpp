@@ -102,6 +102,10 @@ Bundle random_bundle(const Kernel& kernel, std::uint64_t seed) {
     s.reference.push_back(b);
     BondTable& t = s.bonds;
     t.gid_lo[k] = t.row_lo[k] = lo, t.gid_hi[k] = t.row_hi[k] = hi;
+    if (features.rotation) {
+      const double r_lo = s.particles.radius[lo], r_hi = s.particles.radius[hi];
+      t.arm_offset[k] = 0.5 * (r_lo - r_hi) / (r_lo + r_hi);
+    }
     t.rest_length[k] = b.d0, t.area[k] = b.area, t.stiffness[k] = b.k_n;
     if (features.contact_damping) t.damping[k] = b.c_n;
     t.shear_x[k] = b.F_s.x, t.shear_y[k] = b.F_s.y, t.shear_z[k] = b.F_s.z;
@@ -112,7 +116,7 @@ Bundle random_bundle(const Kernel& kernel, std::uint64_t seed) {
 }
 
 struct Columns {
-  std::vector<Vec3> force, turn;
+  std::vector<Vec3> force, moment;
 };
 
 /// The pass over all bonds into columns; history advances.
@@ -122,11 +126,11 @@ Columns pass(Bundle& s, const Features& features, InstructionSet set) {
   Columns c{std::vector<Vec3>(b.padded), std::vector<Vec3>(features.rotation ? b.padded : 0)};
   Scatter to;
   to.mode = ScatterMode::columns;
-  to.bond_force = c.force, to.bond_turn = c.turn;
+  to.bond_force = c.force, to.bond_moment = c.moment;
   const BondLaw law = scene::law(s.parameters);
   bond_pass_for(law, features, set)(
-      {s.dt, constants_of(law), p.position, p.velocity, p.spin, p.radius, b.row_lo, b.row_hi, b.rest_length,
-       b.area, b.area, b.stiffness, b.damping},
+      {s.dt, constants_of(law), p.position, p.velocity, p.spin, b.row_lo, b.row_hi, b.arm_offset,
+       b.rest_length, b.area, b.area, b.stiffness, b.damping},
       scene::bond_history(b), 0, b.padded, to, nullptr);
   return c;
 }
@@ -136,7 +140,7 @@ void swap_ends(Bundle& s) {
   BondTable& b = s.bonds;
   std::swap(b.row_lo, b.row_hi);
   std::swap(b.gid_lo, b.gid_hi);
-  for (auto* column : {&b.shear_x, &b.shear_y, &b.shear_z})
+  for (auto* column : {&b.shear_x, &b.shear_y, &b.shear_z, &b.arm_offset})
     for (double& f : *column) f = -f;
 }
 
@@ -157,7 +161,7 @@ TEST_CASE(
     for (const InstructionSet set : sets_of_this_machine()) {
       const Features& features = kernel.features;
       Bundle s = random_bundle(kernel, 7);
-      double force = 0, turn = 0, history = 0;
+      double force = 0, moment = 0, history = 0;
       int broken = 0, newly_broken = 0;
       for (const ref::Bond& b : s.reference) broken -= b.broken != ref::Broken::no;
       for (int step = 0; step < 6; ++step) {
@@ -180,8 +184,10 @@ TEST_CASE(
           if (features.rotation) {
             // ends lie far apart here: arms are up to ten radii
             const double arms = norm(j.x - i.x) / (i.radius + j.radius);
-            worse(turn, norm(i.radius * got.turn[k] - i.torque) / (scale * arms * i.radius));
-            worse(turn, norm(j.radius * got.turn[k] - j.torque) / (scale * arms * j.radius));
+            worse(moment,
+                  norm((0.5 + s.bonds.arm_offset[k]) * got.moment[k] - i.torque) / (scale * arms * i.radius));
+            worse(moment,
+                  norm((0.5 - s.bonds.arm_offset[k]) * got.moment[k] - j.torque) / (scale * arms * j.radius));
           }
           worse(history,
                 norm(Vec3{s.bonds.shear_x[k], s.bonds.shear_y[k], s.bonds.shear_z[k]} - b.F_s) / scale);
@@ -197,7 +203,7 @@ TEST_CASE(
       INFO(name_of(set), ", rotation ", features.rotation, ", plasticity ", features.plasticity,
            ", breakage ", features.breakage, ", criterion ", int(kernel.criterion));
       CHECK(force < 1e-11);
-      CHECK(turn < 1e-11);
+      CHECK(moment < 1e-11);
       CHECK(history < 1e-11);
       if (features.breakage) CHECK(newly_broken + broken > 10);
     }
@@ -214,7 +220,7 @@ TEST_CASE(
       const Columns f = pass(a, features, set), g = pass(b, features, set);
       std::size_t different = 0;
       for (std::size_t k = 0; k < a.bonds.size; ++k)
-        different += !(f.force[k] == -g.force[k]) || (features.rotation && !(f.turn[k] == g.turn[k])) ||
+        different += !(f.force[k] == -g.force[k]) || (features.rotation && !(f.moment[k] == g.moment[k])) ||
                      !same_history(a.bonds, k, b.bonds, k, -1);
       INFO(name_of(set), ", rotation ", features.rotation, ", criterion ", int(kernel.criterion));
       CHECK(different == 0);
@@ -241,7 +247,7 @@ TEST_CASE("bond pass: a bond's result does not depend on its place and neighbour
       std::size_t different = 0;
       for (std::size_t k = 0; k < from.size(); ++k)
         different += !(g.force[k] == f.force[from[k]]) ||
-                     (features.rotation && !(g.turn[k] == f.turn[from[k]])) ||
+                     (features.rotation && !(g.moment[k] == f.moment[from[k]])) ||
                      !same_history(b.bonds, k, a.bonds, from[k], 1);
       INFO(name_of(set), ", criterion ", int(kernel.criterion));
       CHECK(different == 0);

@@ -16,7 +16,8 @@ struct Network {
   std::size_t bonds = 0;
   std::vector<Row> lo, hi;
   std::vector<Gid> gid_lo, gid_hi;
-  std::vector<Vec3> force, turn;  ///< per bond
+  std::vector<Vec3> force, moment;  ///< per bond
+  std::vector<double> arm_offset;
   ParticleTable particles;
 };
 
@@ -45,7 +46,8 @@ Network network(std::size_t particles, std::size_t bonds, const Features& featur
     n.lo.push_back(rising ? a : b), n.hi.push_back(rising ? b : a);
     n.gid_lo.push_back(n.particles.gid[n.lo.back()]), n.gid_hi.push_back(n.particles.gid[n.hi.back()]);
     n.force.push_back({in(random), in(random), in(random)});
-    n.turn.push_back({in(random), in(random), in(random)});
+    n.moment.push_back({in(random), in(random), in(random)});
+    if (features.rotation) n.arm_offset.push_back(0.3 * in(random));
   }
   return n;
 }
@@ -56,9 +58,8 @@ void add_range(const Network& n, const Scatter& to, std::size_t first, std::size
     const std::size_t count = std::min(last - first, ForceBlock::capacity);
     ForceBlock block;
     for (std::size_t k = 0; k < count; ++k) {
-      const Vec3 &f = n.force[first + k], &t = n.turn[first + k];
-      block.fx[k] = f.x, block.fy[k] = f.y, block.fz[k] = f.z;
-      block.tx[k] = t.x, block.ty[k] = t.y, block.tz[k] = t.z;
+      block.force[k] = n.force[first + k];
+      block.moment[k] = n.moment[first + k];
     }
     scatter(to, block, first, count);
     first += count;
@@ -73,12 +74,12 @@ struct Sums {
 Sums sums_of(Network& n, ScatterKind kind, int ranges, std::size_t batch = 8) {
   ParticleTable& p = n.particles;
   const bool torques = !p.spin.empty();
-  ScatterPlan plan = plan_scatter(kind, ranges, batch, n.lo, n.hi, n.gid_lo, n.gid_hi, p.size, torques);
+  ScatterPlan plan = plan_scatter(kind, ranges, batch, n.lo, n.hi, n.gid_lo, n.gid_hi, n.arm_offset, p.size);
   Sums sums;
   for (int repeat = 0; repeat < 2; ++repeat) {  // twice: the ranges' own sums must be left empty
     std::fill(p.force.begin(), p.force.begin() + std::ptrdiff_t(p.size), Vec3{});
     if (torques) std::fill(p.torque.begin(), p.torque.begin() + std::ptrdiff_t(p.size), Vec3{});
-    const Scatter to = scatter_view(plan, n.lo, n.hi, p);
+    const Scatter to = scatter_view(plan, n.lo, n.hi, n.arm_offset, p);
     for_ranges(ranges, [&](int range) { add_range(n, to, plan.first(range), plan.first(range + 1)); });
     collect(plan, p, ranges);
     const Sums before = sums;
@@ -95,8 +96,8 @@ Sums serial(const Network& n) {
     s.force[n.lo[b]] += n.force[b];
     s.force[n.hi[b]] -= n.force[b];
     if (s.torque.empty()) continue;
-    s.torque[n.lo[b]] += n.particles.radius[n.lo[b]] * n.turn[b];
-    s.torque[n.hi[b]] += n.particles.radius[n.hi[b]] * n.turn[b];
+    s.torque[n.lo[b]] += (0.5 + n.arm_offset[b]) * n.moment[b];
+    s.torque[n.hi[b]] += (0.5 - n.arm_offset[b]) * n.moment[b];
   }
   return s;
 }
@@ -152,7 +153,7 @@ TEST_CASE(
   Network n = network(700, 4096 + 8, spinning);
   for (const int ranges : {1, 2, 3, 5, 8}) {
     const ScatterPlan plan =
-        plan_scatter(ScatterKind::private_sums, ranges, 8, n.lo, n.hi, n.gid_lo, n.gid_hi, 700, true);
+        plan_scatter(ScatterKind::private_sums, ranges, 8, n.lo, n.hi, n.gid_lo, n.gid_hi, n.arm_offset, 700);
     CHECK(plan.first(0) == 0);
     CHECK(plan.first(ranges) == n.bonds);
     std::vector<int> toucher(700 + plan.slot_count, -1);
@@ -170,7 +171,7 @@ TEST_CASE(
     CHECK((ranges == 1 || plan.slot_count > 0));
     // with atomics: a row without the mark is touched from one range only
     const ScatterPlan atomic =
-        plan_scatter(ScatterKind::atomic, ranges, 8, n.lo, n.hi, n.gid_lo, n.gid_hi, 700, true);
+        plan_scatter(ScatterKind::atomic, ranges, 8, n.lo, n.hi, n.gid_lo, n.gid_hi, n.arm_offset, 700);
     std::vector<int> plain_toucher(700, -1);
     std::size_t marked = 0;
     bool unmarked_alone = true;

@@ -1,0 +1,14 @@
+// The instruction sets that the wide loops are compiled for; the choice is made once, at start.
+#pragma once
+#include <string_view>
+
+namespace breccia {
+
+enum class InstructionSet { x86_64, x86_64_v3, x86_64_v4 };
+
+std::string_view name_of(InstructionSet);
+
+/// The widest set that this processor runs.
+InstructionSet best_instruction_set();
+
+}  // namespace breccia

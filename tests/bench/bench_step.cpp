@@ -1,0 +1,126 @@
+// Microbenchmarks of the step and its parts. Run from a quiet machine:
+//   build/bin/bench_step --benchmark_filter=pass --benchmark_repetitions=5
+// Arguments in the names: thousands of spheres, threads, state of the bonds. items_per_second counts bonds
+// (particles for `integrate`); `best_ns` is the fastest single pass, nanoseconds per item, which other work
+// on the machine disturbs least.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+#include "core/packing.hpp"
+#include "core/world.hpp"
+
+namespace {
+
+using namespace breccia;
+
+Material concrete() {
+  Material m;
+  m.density = 2500;
+  m.young_modulus = 28e9;
+  m.poisson_ratio = 0.2;
+  m.friction_static = 0.9;
+  m.friction_dynamic = 0.25;
+  m.tensile_strength = 5e6;
+  m.shear_strength = 16e6;
+  m.limit_compressive_stress = {20e6, 45e6, 70e6};
+  m.stiffness_reduction = {3, 12, 22};
+  m.damage_normal = m.damage_shear = 1;
+  return m;
+}
+
+const Assembly& cylinder(std::size_t spheres) {
+  static std::map<std::size_t, Assembly> made;
+  const auto [at, is_new] = made.try_emplace(spheres);
+  if (is_new) {
+    const Body body{Shape::cylinder, 0.15, 0, 0.3};
+    PackRequest request;
+    request.spheres = spheres;
+    at->second = assemble(pack_spheres(body, request), body, {}, Features{}, 2);
+  }
+  return at->second;
+}
+
+/// 0: intact. 1: of the bonds a tenth yields in compression, a twentieth is damaged, a twentieth broken.
+void put_into_state(World& w, int state) {
+  BondTable& b = w.bonds;
+  std::uint64_t random = 1;
+  for (std::size_t k = 0; k < b.size && state == 1; ++k) {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    const double u = static_cast<double>(random >> 40) / double(1 << 24);
+    if (u < 0.1) {
+      b.rest_length[k] *= 1.002;
+      b.plastic_stretch[k] = -1e-4 * b.rest_length[k];
+    } else if (u < 0.15) {
+      b.damage_normal[k] = 0.5;
+    } else if (u < 0.2) {
+      b.damage_normal[k] = 1.0;
+    }
+  }
+}
+
+World world(const benchmark::State& s, ScatterKind scatter = ScatterKind::private_sums) {
+  WorldOptions options;
+  options.threads = static_cast<int>(s.range(1));
+  options.scatter = scatter;
+  AreaFactor factor;
+  factor.alpha = 0.8;
+  factor.shear_ratio = 0.33;
+  World w = make_world(cylinder(static_cast<std::size_t>(s.range(0)) * 1000), concrete(), factor, options);
+  put_into_state(w, static_cast<int>(s.range(2)));
+  w.platens.velocity = {Vec3{0, 0, 0.02}, Vec3{0, 0, -0.02}};
+  for (int k = 0; k < 20; ++k) advance(w);
+  return w;
+}
+
+/// Times each call by itself: the benchmark's mean, and the best of all.
+template <class Work>
+void time_each(benchmark::State& s, std::size_t items, const Work& work) {
+  double best = 1e9;
+  for (auto _ : s) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  s.SetItemsProcessed(static_cast<std::int64_t>(items) * static_cast<std::int64_t>(s.iterations()));
+  s.counters["best_ns"] = 1e9 * best / static_cast<double>(items);
+}
+
+void whole_step(benchmark::State& s, ScatterKind scatter) {
+  World w = world(s, scatter);
+  time_each(s, w.bonds.size, [&] { advance(w); });
+  for (const Phase phase : {Phase::bonds, Phase::gather, Phase::integrate})
+    s.counters[std::string(phase_names[static_cast<std::size_t>(phase)])] =
+        w.phases[phase] / w.phases.total();
+}
+
+/// The bond pass alone, one thread, sums included; nothing moves.
+void pass(benchmark::State& s) {
+  World w = world(s);
+  ParticleTable& p = w.particles;
+  BondTable& b = w.bonds;
+  const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, b.arm_offset, p);
+  const BondPassIn in{
+      w.dt,         constants_of(w.law), p.position, p.velocity,        p.spin,      b.row_lo, b.row_hi,
+      b.arm_offset, b.rest_length,       b.area,     strength_areas(b), b.stiffness, b.damping};
+  const BondPassHistory history{b.shear_x,         b.shear_y,       b.shear_z,
+                                b.plastic_stretch, b.damage_normal, b.damage_shear};
+  time_each(s, b.size, [&] { w.bond_pass(in, history, 0, b.padded, to, nullptr); });
+}
+
+void states(benchmark::internal::Benchmark* b) {
+  for (const int spheres : {14, 66})
+    for (const int threads : {1, 2})
+      for (const int state : {0, 1}) b->Args({spheres, threads, state});
+  b->UseRealTime();
+}
+
+BENCHMARK(pass)->Args({14, 1, 0})->Args({14, 1, 1})->Args({66, 1, 0})->Args({66, 1, 1});
+BENCHMARK_CAPTURE(whole_step, private, ScatterKind::private_sums)->Apply(states);
+BENCHMARK_CAPTURE(whole_step, gather, ScatterKind::gather)->Apply(states);
+
+}  // namespace
+
+BENCHMARK_MAIN();
