@@ -96,8 +96,7 @@ ScatterPlan plan_scatter(ScatterKind kind, int ranges, std::size_t batch, std::s
   plan.rows = row_lo.size();
   if (kind == ScatterKind::gather) {
     plan_gather(plan, row_lo, row_hi, gid_lo, gid_hi, arm_offset, particles);
-    plan.bond_force.resize(plan.rows);
-    if (!arm_offset.empty()) plan.bond_moment.resize(plan.rows);
+    plan.bond_load.resize(plan.rows);
     return plan;
   }
   if (ranges <= 1) return plan;
@@ -118,7 +117,7 @@ ScatterPlan plan_scatter(ScatterKind kind, int ranges, std::size_t batch, std::s
 Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span<const Index> row_hi,
                      std::span<const double> arm_offset, ParticleTable& particles) {
   Scatter view;
-  view.mode = plan.kind == ScatterKind::gather                      ? ScatterMode::columns
+  view.mode = plan.kind == ScatterKind::gather                      ? ScatterMode::column
               : plan.kind == ScatterKind::atomic && plan.ranges > 1 ? ScatterMode::atomic
                                                                     : ScatterMode::own;
   view.to_lo = plan.to_lo.empty() ? row_lo : std::span<const Index>(plan.to_lo);
@@ -132,8 +131,7 @@ Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span
     if (particles.torque.size() < particles.force.size()) particles.torque.resize(particles.force.size());
     view.torque = particles.torque;
   }
-  view.bond_force = plan.bond_force;
-  view.bond_moment = plan.bond_moment;
+  view.bond_load = plan.bond_load;
   return view;
 }
 
@@ -144,9 +142,10 @@ void collect(ScatterPlan& plan, ParticleTable& particles, int threads) {
       for (std::size_t p = first; p < last; ++p) {
         Vec3 force, torque;
         for (Index e = plan.first_entry[p]; e < plan.first_entry[p + 1]; ++e) {
-          const Index entry = plan.entries[e], bond = entry >> 1;
-          force += (entry & 1u ? -1.0 : 1.0) * plan.bond_force[bond];
-          if (torques) torque += plan.entry_share[e] * plan.bond_moment[bond];
+          const Index entry = plan.entries[e];
+          const BondLoad& load = plan.bond_load[entry >> 1];
+          force += (entry & 1u ? -1.0 : 1.0) * load.force;
+          if (torques) torque += plan.entry_share[e] * load.moment;
         }
         particles.force[p] += force;
         if (torques) particles.torque[p] += torque;

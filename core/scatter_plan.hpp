@@ -24,7 +24,7 @@ struct ScatterPlan {
   /// bonds' ids
   std::vector<Index> first_entry, entries;
   std::vector<double> entry_share;  ///< of the bond's moment that the particle gets; empty without torques
-  std::vector<Vec3> bond_force, bond_moment;
+  std::vector<BondLoad> bond_load;
 
   std::size_t first(int range) const;
 };

@@ -10,7 +10,8 @@
 namespace breccia::BRECCIA_ISA {
 namespace {
 
-static_assert(bond_batch % width == 0 && ForceBlock::capacity % bond_batch == 0);
+constexpr std::size_t stride = sizeof(BondLoad) / sizeof(Vec3);
+static_assert(bond_batch % width == 0 && LoadBlock::capacity % bond_batch == 0);
 
 Lanes load(const double* p) { return Lanes(p, std::experimental::element_aligned); }
 void store(const Lanes& r, double* p) { r.copy_to(p, std::experimental::element_aligned); }
@@ -48,9 +49,9 @@ template <class Law, Features features>
 [[gnu::flatten]] void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first,
                                 std::size_t last, const Scatter& to, BreakNotes* notes) {
   const Law& law = *static_cast<const Law*>(in.law);
-  ForceBlock block;
+  LoadBlock block;
   while (first < last) {
-    const std::size_t count = last - first < ForceBlock::capacity ? last - first : ForceBlock::capacity;
+    const std::size_t count = last - first < LoadBlock::capacity ? last - first : LoadBlock::capacity;
     for (std::size_t k = 0; k < count; k += width) {
       const std::size_t b = first + k;
       Lanes arm_offset(0.0);
@@ -86,9 +87,9 @@ template <class Law, Features features>
           store(h.damage_shear, history.damage_shear.data() + b);
           if (notes) note_breaks<features>(history, before, b, *notes);
         }
-      store_rows(force, block.force + k);
+      store_rows(force, &block.load[k].force, stride);
       if constexpr (features.rotation)
-        store_rows(pair.distance * cross(pair.normal, force), block.moment + k);
+        store_rows(pair.distance * cross(pair.normal, force), &block.load[k].moment, stride);
     }
     scatter_block(to, block, first, count);
     first += count;

@@ -23,9 +23,9 @@ Vec3 pressed_force(const ContactPassIn& in, const ContactPassHistory& history, s
 
 void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, std::size_t first,
                   std::size_t last, const Scatter& to) {
-  ForceBlock block;
+  LoadBlock block;
   while (first < last) {
-    const std::size_t count = last - first < ForceBlock::capacity ? last - first : ForceBlock::capacity;
+    const std::size_t count = last - first < LoadBlock::capacity ? last - first : LoadBlock::capacity;
     bool pressed = false;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t c = first + k;
@@ -42,10 +42,9 @@ void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, st
         const double touch = in.radius[in.row_lo[c]] + in.radius[in.row_hi[c]];
         if (dot(l, l) >= touch * touch) history.free_length[c] = touch;
       }
-      block.force[k] = force;
-      block.moment[k] = moment;
+      block.load[k] = {force, moment};
     }
-    if (pressed || to.mode == ScatterMode::columns) scatter(to, block, first, count);
+    if (pressed || to.mode == ScatterMode::column) scatter(to, block, first, count);
     first += count;
   }
 }

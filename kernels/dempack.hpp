@@ -66,7 +66,8 @@ inline R plastic_stretch(const DempackLaw& law, const BondConstants<R>& bond, co
   const R trial = -bond.stiffness * (u - before);  // N, positive in compression
   const auto above_first = trial > R(law.limit_stress[0]) * bond.area;
   if (!any(above_first)) return before;
-  const R limit = envelope_stress(law, -u / strain_length(law.young, bond)) * bond.area;
+  const R strain = -u * bond.stiffness / (R(law.young) * bond.area);  // -u/strain_length
+  const R limit = envelope_stress(law, strain) * bond.area;
   return select(above_first && trial > limit, u + limit / bond.stiffness, before);
 }
 

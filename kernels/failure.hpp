@@ -88,8 +88,16 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
   R normal = bond.stiffness * elastic_stretch;
   auto broken = h.damage_normal >= one || h.damage_shear >= one;
   const auto pulled = normal > zero;  // never a padding bond, which has no stiffness
-  const bool damaged = any(h.damage_normal > zero || h.damage_shear > zero);
   R g_normal = one, g_shear = one;
+  // a given delta is the same for all bonds and needs no length
+  const auto delta_along = [&] {
+    return failure.softening_normal_length == 0.0 ? R(larger(failure.softening_normal, 0.0))
+                                                  : delta_normal(failure, strain_length(young, bond));
+  };
+  const auto delta_across = [&] {
+    return failure.softening_shear_length == 0.0 ? R(larger(failure.softening_shear, 0.0))
+                                                 : delta_shear(failure, strain_length(young, bond));
+  };
 
   // --- along the bond, and with it the shear of a pulled bond where the two are coupled
   if constexpr (coupled) {
@@ -97,10 +105,9 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
     const auto intact_pull = pulled && !broken;
     const R a = normal / limits.tension;
     const R b = square_root(dot(h.shear, h.shear)) / limits.cohesion;
-    if (any(intact_pull) && (damaged || any(intact_pull && a + b > one))) {
-      const R length = strain_length(young, bond);
-      const R r = a + b;
-      const R delta = (delta_normal(failure, length) * a + delta_shear(failure, length) * b) / r;
+    const R r = a + b;
+    if (any(intact_pull && (r > one || h.damage_normal > zero || h.damage_shear > zero))) {
+      const R delta = (delta_along() * a + delta_across() * b) / r;
       const auto grows = intact_pull && r > one + delta * h.damage_normal;
       const R damage = select(grows, larger(h.damage_normal, damage_at(r, delta)), h.damage_normal);
       const auto fails = grows && damage >= one;
@@ -113,13 +120,16 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
       g_shear = select(intact_pull, g, g_shear);
     }
   } else {
-    const auto over = pulled && !broken && normal > limits.tension;
-    if (any(over) || damaged) {
-      const R delta = delta_normal(failure, strain_length(young, bond));
-      const R damage = larger(h.damage_normal, damage_at(normal / limits.tension, delta));
-      h.damage_normal = select(over, damage, h.damage_normal);
-      broken = broken || h.damage_normal >= one;
-      g_normal = select(pulled, softening(h.damage_normal, delta), one);
+    const auto intact_pull = pulled && !broken;
+    const auto over = intact_pull && normal > limits.tension;
+    if (any(over || (intact_pull && h.damage_normal > zero))) {
+      const R delta = delta_along();
+      if (any(over)) {
+        const R damage = larger(h.damage_normal, damage_at(normal / limits.tension, delta));
+        h.damage_normal = select(over, damage, h.damage_normal);
+        broken = broken || h.damage_normal >= one;
+      }
+      g_normal = select(intact_pull, softening(h.damage_normal, delta), one);
     }
   }
   normal = g_normal * normal;
@@ -135,26 +145,28 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
   if constexpr (coupled) sheared = sheared && !pulled;
   const R trial2 = dot(h.shear, h.shear);
   const auto beyond = sheared && trial2 > strength * strength;
-  if (any(beyond) || damaged) {
-    const R delta = delta_shear(failure, strain_length(young, bond));
-    const R trial = square_root(trial2);
-    const auto grows = beyond && trial > strength * (one + delta * h.damage_shear);
-    const R damage = larger(h.damage_shear, damage_at(trial / strength, delta));
-    const auto fails = grows && (damage >= one || (one - damage) * strength <= friction);
-    if constexpr (!coupled)
-      g_shear = softening(h.damage_shear, delta);
-    else
-      g_shear = select(pulled, g_shear, softening(h.damage_shear, delta));
-    // the force that a failing bond hands over to friction is the one it carried before this step's damage
-    h.shear = select(fails, g_shear * h.shear, h.shear);
-    if constexpr (coupled) h.damage_normal = select(grows && !fails, damage, h.damage_normal);
-    h.damage_shear = select(grows, select(fails, one, damage), h.damage_shear);
-    broken = broken || fails;
-    const R g_after = softening(h.damage_shear, delta);
-    if constexpr (coupled)
-      g_shear = select(pulled, g_shear, g_after);
-    else
-      g_shear = g_after;
+  if (any(beyond || (sheared && h.damage_shear > zero))) {
+    const R delta = delta_across();
+    const auto secant = [&] {
+      const R g = softening(h.damage_shear, delta);
+      if constexpr (coupled)
+        return select(pulled, g_shear, g);
+      else
+        return g;
+    };
+    g_shear = secant();
+    if (any(beyond)) {
+      const R trial = square_root(trial2);
+      const auto grows = beyond && trial > strength * (one + delta * h.damage_shear);
+      const R damage = larger(h.damage_shear, damage_at(trial / strength, delta));
+      const auto fails = grows && (damage >= one || (one - damage) * strength <= friction);
+      // the force that a failing bond hands over to friction is the one it carried before this step's damage
+      h.shear = select(fails, g_shear * h.shear, h.shear);
+      if constexpr (coupled) h.damage_normal = select(grows && !fails, damage, h.damage_normal);
+      h.damage_shear = select(grows, select(fails, one, damage), h.damage_shear);
+      broken = broken || fails;
+      g_shear = secant();
+    }
   }
 
   // --- broken: no pull, Coulomb friction
@@ -165,8 +177,8 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
     damper = select(apart, zero, damper);
     const R limit = select(pulled, zero, friction);
     const R size2 = dot(h.shear, h.shear);
-    const R scale = select(size2 > limit * limit, limit / square_root(size2), one);
-    h.shear = select(broken, scale * h.shear, h.shear);
+    const auto slides = broken && size2 > limit * limit;
+    if (any(slides)) h.shear = select(slides, (limit / square_root(size2)) * h.shear, h.shear);
     g_shear = select(broken, one, g_shear);
   }
   return {normal, damper, g_shear * h.shear};

@@ -57,8 +57,8 @@ using Register [[gnu::vector_size(8 * width)]] = double;  // a column over the b
 #endif
 }
 
-/// The columns of a batch as consecutive rows, the way back; what fills a row up is zero.
-[[gnu::always_inline]] inline void store_rows(const Vec<Lanes>& v, Vec3* rows) {
+/// The columns of a batch as rows, `stride` of them apart, the way back; what fills a row up is zero.
+[[gnu::always_inline]] inline void store_rows(const Vec<Lanes>& v, Vec3* rows, std::size_t stride) {
 #if defined(__AVX512F__)
   const auto x = std::bit_cast<Register>(v.x), y = std::bit_cast<Register>(v.y),
              z = std::bit_cast<Register>(v.z);
@@ -67,10 +67,10 @@ using Register [[gnu::vector_size(8 * width)]] = double;  // a column over the b
                        const Register& z0) {  // rows k, k + 2, k + 4, k + 6
     const Register pair = __builtin_shufflevector(xy, z0, 0, 1, 8, 9, 4, 5, 12, 13);
     const Register next = __builtin_shufflevector(xy, z0, 2, 3, 10, 11, 6, 7, 14, 15);
-    four(rows[k]) = __builtin_shufflevector(pair, pair, 0, 1, 2, 3);
-    four(rows[k + 2]) = __builtin_shufflevector(next, next, 0, 1, 2, 3);
-    four(rows[k + 4]) = __builtin_shufflevector(pair, pair, 4, 5, 6, 7);
-    four(rows[k + 6]) = __builtin_shufflevector(next, next, 4, 5, 6, 7);
+    four(rows[k * stride]) = __builtin_shufflevector(pair, pair, 0, 1, 2, 3);
+    four(rows[(k + 2) * stride]) = __builtin_shufflevector(next, next, 0, 1, 2, 3);
+    four(rows[(k + 4) * stride]) = __builtin_shufflevector(pair, pair, 4, 5, 6, 7);
+    four(rows[(k + 6) * stride]) = __builtin_shufflevector(next, next, 4, 5, 6, 7);
   };
   put(0, __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14),
       __builtin_shufflevector(z, zero, 0, 8, 2, 10, 4, 12, 6, 14));
@@ -81,13 +81,13 @@ using Register [[gnu::vector_size(8 * width)]] = double;  // a column over the b
              z = std::bit_cast<Register>(v.z);
   const Register zero{};
   const auto put = [&](std::size_t k, const Register& xy, const Register& z0) {  // rows k, k + 2
-    four(rows[k]) = __builtin_shufflevector(xy, z0, 0, 1, 4, 5);
-    four(rows[k + 2]) = __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
+    four(rows[k * stride]) = __builtin_shufflevector(xy, z0, 0, 1, 4, 5);
+    four(rows[(k + 2) * stride]) = __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
   };
   put(0, __builtin_shufflevector(x, y, 0, 4, 2, 6), __builtin_shufflevector(z, zero, 0, 4, 2, 6));
   put(1, __builtin_shufflevector(x, y, 1, 5, 3, 7), __builtin_shufflevector(z, zero, 1, 5, 3, 7));
 #else
-  for (std::size_t k = 0; k < width; ++k) rows[k] = {v.x[k], v.y[k], v.z[k]};
+  for (std::size_t k = 0; k < width; ++k) rows[k * stride] = {v.x[k], v.y[k], v.z[k]};
 #endif
 }
 

@@ -10,11 +10,16 @@ namespace breccia {
 
 using Index = std::uint32_t;
 
-/// Forces of up to 64 consecutive bonds, as the law leaves them.
-struct ForceBlock {
+/// What a bond does to its ends; one line of the cache.
+struct alignas(64) BondLoad {
+  Vec3 force;   ///< N, on lo; on hi the opposite
+  Vec3 moment;  ///< N m, branch x force: each end gets its share of it
+};
+
+/// Of up to 64 consecutive bonds, as the law leaves them.
+struct LoadBlock {
   static constexpr std::size_t capacity = 64;
-  alignas(64) Vec3 force[capacity];  ///< N, on lo; on hi the opposite
-  Vec3 moment[capacity];             ///< N m, branch x force: each end gets its share of it
+  BondLoad load[capacity];
 };
 
 /// Where a range of bonds may add its forces.
@@ -22,20 +27,20 @@ struct ForceBlock {
 ///          sums)
 /// atomic:  as own, but a row with the top bit set is a particle that other ranges touch too: added
 ///          atomically
-/// columns: one force and moment per bond, summed later in a fixed order
-enum class ScatterMode : unsigned char { own, atomic, columns };
+/// column:  one load per bond, summed later in a fixed order
+enum class ScatterMode : unsigned char { own, atomic, column };
 
 inline constexpr Index shared_row = 0x80000000u;
 
 struct Scatter {
   ScatterMode mode = ScatterMode::own;
-  std::span<const Index> to_lo, to_hi;      ///< rows to add to
-  std::span<const double> arm_offset;       ///< per bond: lo gets 1/2 + this of the moment, hi the rest
-  std::span<Vec3> force, torque;            ///< N, N m; torque is empty where nothing spins
-  std::span<Vec3> bond_force, bond_moment;  ///< columns: per bond
+  std::span<const Index> to_lo, to_hi;  ///< rows to add to
+  std::span<const double> arm_offset;   ///< per bond: lo gets 1/2 + this of the moment, hi the rest
+  std::span<Vec3> force, torque;        ///< N, N m; torque is empty where nothing spins
+  std::span<BondLoad> bond_load;        ///< column: per bond
 };
 
-/// Adds `count` forces of bonds [first, first + count).
-void scatter(const Scatter& to, const ForceBlock& block, std::size_t first, std::size_t count);
+/// Adds `count` loads of bonds [first, first + count).
+void scatter(const Scatter& to, const LoadBlock& block, std::size_t first, std::size_t count);
 
 }  // namespace breccia

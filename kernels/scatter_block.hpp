@@ -34,11 +34,11 @@ struct AtomicAdd {
 };
 
 template <bool torques, class Add>
-[[gnu::always_inline]] inline void add_block(const Scatter& to, const ForceBlock& block, std::size_t first,
+[[gnu::always_inline]] inline void add_block(const Scatter& to, const LoadBlock& block, std::size_t first,
                                              std::size_t count, const Add& add) {
   for (std::size_t k = 0; k < count; ++k) {
     const Index lo = to.to_lo[first + k], hi = to.to_hi[first + k];
-    const Four &force = four(block.force[k]), &moment = four(block.moment[k]);
+    const Four &force = four(block.load[k].force), &moment = four(block.load[k].moment);
     add(to.force, lo, force);
     add(to.force, hi, -force);
     if constexpr (torques) {
@@ -49,15 +49,16 @@ template <bool torques, class Add>
   }
 }
 
-inline void keep_block(const Scatter& to, const ForceBlock& block, std::size_t first, std::size_t count) {
-  for (std::size_t k = 0; k < count; ++k) four(to.bond_force[first + k]) = four(block.force[k]);
-  if (to.bond_moment.empty()) return;
-  for (std::size_t k = 0; k < count; ++k) four(to.bond_moment[first + k]) = four(block.moment[k]);
+inline void keep_block(const Scatter& to, const LoadBlock& block, std::size_t first, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
+    four(to.bond_load[first + k].force) = four(block.load[k].force);
+    four(to.bond_load[first + k].moment) = four(block.load[k].moment);
+  }
 }
 
-inline void scatter_block(const Scatter& to, const ForceBlock& block, std::size_t first, std::size_t count) {
+inline void scatter_block(const Scatter& to, const LoadBlock& block, std::size_t first, std::size_t count) {
   const bool torques = !to.torque.empty();
-  if (to.mode == ScatterMode::columns)
+  if (to.mode == ScatterMode::column)
     keep_block(to, block, first, count);
   else if (to.mode == ScatterMode::own)
     torques ? add_block<true>(to, block, first, count, PlainAdd{})

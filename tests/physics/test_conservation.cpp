@@ -133,8 +133,8 @@ TEST_CASE(
     };
     std::fill(w.bonds.damping.begin(), w.bonds.damping.end(), 0.0);
     Scatter to;
-    std::vector<Vec3> force(w.bonds.padded), turn(w.bonds.padded);
-    to.mode = ScatterMode::columns, to.bond_force = force, to.bond_moment = turn;
+    std::vector<BondLoad> load(w.bonds.padded);
+    to.mode = ScatterMode::column, to.bond_load = load;
     for (int k = 1; k <= steps; ++k) {
       for (std::size_t row = 0; row < w.particles.size; ++row) {
         const Vec3 now = turned(w.particles.reference_position[row], k * t1);
@@ -147,7 +147,7 @@ TEST_CASE(
     }
     double worst = 0, bound = 1e-12;
     for (std::size_t k = 0; k < w.bonds.size; ++k) {
-      worst = std::max(worst, norm(force[k]));
+      worst = std::max(worst, norm(load[k].force));
       bound = std::max(bound, w.shear_ratio * w.bonds.stiffness[k] * w.bonds.rest_length[k] * 0.25 / steps);
     }
     CHECK(count_broken(w).tension + count_broken(w).shear == 0);

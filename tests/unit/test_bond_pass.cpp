@@ -115,18 +115,18 @@ Bundle random_bundle(const Kernel& kernel, std::uint64_t seed) {
   return s;
 }
 
-struct Columns {
-  std::vector<Vec3> force, moment;
+struct Loads {
+  std::vector<BondLoad> load;
 };
 
-/// The pass over all bonds into columns; history advances.
-Columns pass(Bundle& s, const Features& features, InstructionSet set) {
+/// The pass over all bonds into a column; history advances.
+Loads pass(Bundle& s, const Features& features, InstructionSet set) {
   BondTable& b = s.bonds;
   const ParticleTable& p = s.particles;
-  Columns c{std::vector<Vec3>(b.padded), std::vector<Vec3>(features.rotation ? b.padded : 0)};
+  Loads c{std::vector<BondLoad>(b.padded)};
   Scatter to;
-  to.mode = ScatterMode::columns;
-  to.bond_force = c.force, to.bond_moment = c.moment;
+  to.mode = ScatterMode::column;
+  to.bond_load = c.load;
   const BondLaw law = scene::law(s.parameters);
   bond_pass_for(law, features, set)(
       {s.dt, constants_of(law), p.position, p.velocity, p.spin, b.row_lo, b.row_hi, b.arm_offset,
@@ -165,7 +165,7 @@ TEST_CASE(
       int broken = 0, newly_broken = 0;
       for (const ref::Bond& b : s.reference) broken -= b.broken != ref::Broken::no;
       for (int step = 0; step < 6; ++step) {
-        const Columns got = pass(s, features, set);
+        const Loads got = pass(s, features, set);
         for (std::size_t k = 0; k < s.bonds.size; ++k) {
           ref::Bond& b = s.reference[k];
           const auto end = [&](std::size_t row) {
@@ -179,15 +179,15 @@ TEST_CASE(
           ref::update_bond(s.parameters, b, i, j, s.dt);
           const double scale = s.parameters.LCS[0] * b.area;
           const auto worse = [](double& worst, double miss) { worst = miss <= worst ? worst : miss; };
-          worse(force, norm(got.force[k] - i.force) / scale);
-          worse(force, norm(got.force[k] + j.force) / scale);
+          worse(force, norm(got.load[k].force - i.force) / scale);
+          worse(force, norm(got.load[k].force + j.force) / scale);
           if (features.rotation) {
             // ends lie far apart here: arms are up to ten radii
             const double arms = norm(j.x - i.x) / (i.radius + j.radius);
-            worse(moment,
-                  norm((0.5 + s.bonds.arm_offset[k]) * got.moment[k] - i.torque) / (scale * arms * i.radius));
-            worse(moment,
-                  norm((0.5 - s.bonds.arm_offset[k]) * got.moment[k] - j.torque) / (scale * arms * j.radius));
+            worse(moment, norm((0.5 + s.bonds.arm_offset[k]) * got.load[k].moment - i.torque) /
+                              (scale * arms * i.radius));
+            worse(moment, norm((0.5 - s.bonds.arm_offset[k]) * got.load[k].moment - j.torque) /
+                              (scale * arms * j.radius));
           }
           worse(history,
                 norm(Vec3{s.bonds.shear_x[k], s.bonds.shear_y[k], s.bonds.shear_z[k]} - b.F_s) / scale);
@@ -217,10 +217,11 @@ TEST_CASE(
       const Features& features = kernel.features;
       Bundle a = random_bundle(kernel, 21), b = random_bundle(kernel, 21);
       swap_ends(b);
-      const Columns f = pass(a, features, set), g = pass(b, features, set);
+      const Loads f = pass(a, features, set), g = pass(b, features, set);
       std::size_t different = 0;
       for (std::size_t k = 0; k < a.bonds.size; ++k)
-        different += !(f.force[k] == -g.force[k]) || (features.rotation && !(f.moment[k] == g.moment[k])) ||
+        different += !(f.load[k].force == -g.load[k].force) ||
+                     (features.rotation && !(f.load[k].moment == g.load[k].moment)) ||
                      !same_history(a.bonds, k, b.bonds, k, -1);
       INFO(name_of(set), ", rotation ", features.rotation, ", criterion ", int(kernel.criterion));
       CHECK(different == 0);
@@ -243,11 +244,11 @@ TEST_CASE("bond pass: a bond's result does not depend on its place and neighbour
               for (std::size_t k = 0; k < from.size(); ++k) column[k] = values[from[k]];
         });
       });
-      const Columns f = pass(a, features, set), g = pass(b, features, set);
+      const Loads f = pass(a, features, set), g = pass(b, features, set);
       std::size_t different = 0;
       for (std::size_t k = 0; k < from.size(); ++k)
-        different += !(g.force[k] == f.force[from[k]]) ||
-                     (features.rotation && !(g.moment[k] == f.moment[from[k]])) ||
+        different += !(g.load[k].force == f.load[from[k]].force) ||
+                     (features.rotation && !(g.load[k].moment == f.load[from[k]].moment)) ||
                      !same_history(b.bonds, k, a.bonds, from[k], 1);
       INFO(name_of(set), ", criterion ", int(kernel.criterion));
       CHECK(different == 0);
