@@ -51,8 +51,10 @@ def usc(results, pictures):
     axes.plot(100 * strain, curve["axial_stress_Pa"] / MPA, color=SHEAR, label="axial stress")
     axes.plot(100 * strain, deviator, color=TENSION, label="axial - lateral stress")
     axes.plot(100 * strain, curve["confining_stress_Pa"] / MPA, color=SOFT, label="lateral stress")
-    axes.axhline(10, color=SOFT, linewidth=0.9, linestyle="--", label="wanted onset, 10 MPa of axial - lateral")
-    axes.plot(100 * grid[onset], smooth[onset], "o", color=TENSION, label="onset here")
+    axes.axhline(10, color=SOFT, linewidth=0.9, linestyle="--")
+    axes.text(100 * strain[-1], 10.2, "onset wanted of axial - lateral stress: 10 MPa", color=SOFT, fontsize=9, ha="right", va="bottom")
+    axes.plot(100 * grid[onset], smooth[onset], "o", color=TENSION)
+    axes.text(100 * grid[onset] + 0.06, smooth[onset] - 0.2, "onset", color=TENSION, fontsize=9, va="top")
     axes.legend()
     save(figure, pictures / "cement-usc.png")
     broken = result.run()["broken_tension"] + result.run()["broken_shear"]

@@ -102,7 +102,7 @@ def overview(pages, summary):
              "breccia against laboratory tests, the results that its sources print, and closed forms. Nothing is fitted to reach a",
              "target but the area factor `alpha`, and that by an elastic probe before the test; what misses its target says so, and",
              "why as far as that is known. `scripts/validate` makes all of it anew, `scripts/validate STUDY` one study,",
-             "`scripts/validate --list` names them. Run times are of 2 threads of a shared machine.", "",
+             "`scripts/validate --list` names them. Run times are of one thread of a shared machine with other work on it.", "",
              "Meshes of the paper and its companions are not part of breccia: their studies run where they lie in a folder",
              "`shared/specimens` beside the source folder. All other specimens are packed by the cases.", "",
              f"{met} of {len(summary)} targets are met.", "",
