@@ -106,26 +106,6 @@ double range_for_coordination(const ParticleTable& p, const std::vector<int>& gr
   return ratios[count - 1] + 1e-12;
 }
 
-/// Within blocks of consecutive links, first the first of each particle, then the second, and so on:
-/// additions to one particle that follow each other would wait for each other.
-void spread_ends(std::vector<Link>& links) {
-  constexpr std::size_t block = 64;
-  std::vector<std::pair<std::size_t, Link>> turn;
-  for (std::size_t first = 0; first < links.size(); first += block) {
-    const std::size_t last = std::min(first + block, links.size());
-    turn.clear();
-    for (std::size_t k = first, rank = 0; k < last; ++k) {
-      rank = k > first && std::min(links[k].lo, links[k].hi) == std::min(links[k - 1].lo, links[k - 1].hi)
-                 ? rank + 1
-                 : 0;
-      turn.emplace_back(rank, links[k]);
-    }
-    std::stable_sort(turn.begin(), turn.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t k = first; k < last; ++k) links[k] = turn[k - first].second;
-  }
-}
-
 /// Fills the bond table; sorted links, padded with copies of the last that have no stiffness.
 void set_bonds(Assembly& a, const std::vector<Link>& links, const Features& features) {
   const ParticleTable& p = a.particles;
@@ -244,7 +224,6 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
            std::pair(std::min(y.lo, y.hi), std::max(y.lo, y.hi));
   });
 
-  spread_ends(links);
   set_bonds(a, links, features);
   set_areas(a, rule, features, threads);
   a.coordination = 2.0 * static_cast<double>(a.bonds.size) / static_cast<double>(n);
