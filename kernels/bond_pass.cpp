@@ -10,6 +10,7 @@
 namespace breccia::BRECCIA_ISA {
 namespace {
 
+constexpr std::size_t ahead = 32;  // bonds, some 400 ns
 constexpr std::size_t stride = sizeof(BondLoad) / sizeof(Vec3);
 static_assert(bond_batch % width == 0 && LoadBlock::capacity % bond_batch == 0);
 
@@ -23,6 +24,24 @@ template <Features features>
   e.v = fetch_rows(in.velocity.data(), rows);
   if constexpr (features.rotation) e.w = fetch_rows(in.spin.data(), rows);
   return e;
+}
+
+/// Asks for the rows of the ends of a later batch: the stream of bonds pushes particles out of the near
+/// caches, and the processor cannot guess which come next.
+template <Features features>
+[[gnu::always_inline]] inline void prefetch_ends(const BondPassIn& in, const Scatter& to, std::size_t b) {
+  for (std::size_t k = b; k < b + width; ++k)
+    for (const Index row : {in.row_lo[k], in.row_hi[k]}) {
+      __builtin_prefetch(&in.position[row]);
+      __builtin_prefetch(&in.velocity[row]);
+      if constexpr (features.rotation) __builtin_prefetch(&in.spin[row]);
+    }
+  if (to.mode != ScatterMode::own) return;
+  for (std::size_t k = b; k < b + width; ++k)
+    for (const Index row : {to.to_lo[k], to.to_hi[k]}) {
+      __builtin_prefetch(&to.force[row], 1);
+      if constexpr (features.rotation) __builtin_prefetch(&to.torque[row], 1);
+    }
 }
 
 /// Which lanes of a batch broke in this step goes into the notes; rare, so out of the loop's way.
@@ -54,6 +73,7 @@ template <class Law, Features features>
     const std::size_t count = last - first < LoadBlock::capacity ? last - first : LoadBlock::capacity;
     for (std::size_t k = 0; k < count; k += width) {
       const std::size_t b = first + k;
+      if (b + ahead < in.row_lo.size()) prefetch_ends<features>(in, to, b + ahead);
       Lanes arm_offset(0.0);
       if constexpr (features.rotation) arm_offset = load(in.arm_offset.data() + b);
       const Pair<Lanes> pair =
