@@ -15,7 +15,8 @@ struct ContactPassIn {
   std::span<const Vec3> position, velocity, spin;
   std::span<const double> radius;
   std::span<const Index> row_lo, row_hi;
-  std::span<const double> arm_offset, stiffness, damping;  ///< damping may be empty
+  std::span<const double> arm_offset, stiffness,
+      damping;  ///< arm_offset empty without rotation, damping may be
 };
 
 struct ContactPassHistory {

@@ -9,27 +9,11 @@
 #include <chrono>
 #include <map>
 
-#include "core/packing.hpp"
-#include "core/world.hpp"
+#include "tests/scene.hpp"
 
 namespace {
 
 using namespace breccia;
-
-Material concrete() {
-  Material m;
-  m.density = 2500;
-  m.young_modulus = 28e9;
-  m.poisson_ratio = 0.2;
-  m.friction_static = 0.9;
-  m.friction_dynamic = 0.25;
-  m.tensile_strength = 5e6;
-  m.shear_strength = 16e6;
-  m.limit_compressive_stress = {20e6, 45e6, 70e6};
-  m.stiffness_reduction = {3, 12, 22};
-  m.damage_normal = m.damage_shear = 1;
-  return m;
-}
 
 const Assembly& cylinder(std::size_t spheres) {
   static std::map<std::size_t, Assembly> made;
@@ -68,7 +52,8 @@ World world(const benchmark::State& s, ScatterKind scatter = ScatterKind::privat
   AreaFactor factor;
   factor.alpha = 0.8;
   factor.shear_ratio = 0.33;
-  World w = make_world(cylinder(static_cast<std::size_t>(s.range(0)) * 1000), concrete(), factor, options);
+  World w = make_world(cylinder(static_cast<std::size_t>(s.range(0)) * 1000), scene::material_of({}), factor,
+                       options);
   put_into_state(w, static_cast<int>(s.range(2)));
   w.platens.velocity = {Vec3{0, 0, 0.02}, Vec3{0, 0, -0.02}};
   for (int k = 0; k < 20; ++k) advance(w);
@@ -102,11 +87,8 @@ void pass(benchmark::State& s) {
   ParticleTable& p = w.particles;
   BondTable& b = w.bonds;
   const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, b.arm_offset, p);
-  const BondPassIn in{
-      w.dt,         constants_of(w.law), p.position, p.velocity,        p.spin,      b.row_lo, b.row_hi,
-      b.arm_offset, b.rest_length,       b.area,     strength_areas(b), b.stiffness, b.damping};
-  const BondPassHistory history{b.shear_x,         b.shear_y,       b.shear_z,
-                                b.plastic_stretch, b.damage_normal, b.damage_shear};
+  const BondPassIn in = scene::bond_pass_in(w);
+  const BondPassHistory history = scene::bond_history(b);
   time_each(s, b.size, [&] { w.bond_pass(in, history, 0, b.padded, to, nullptr); });
 }
 
