@@ -135,7 +135,7 @@ void pair_forces(ImpactWorld& w) {
       continue;
     }
     const double arm_offset = 0.5 * (p.radius[i] - p.radius[j]) / touch;
-    const Pair<double> pair = relative_motion<true>(end_of(p, i), end_of(p, j), arm_offset, w.dt);
+    const Pair<double> pair = relative_motion<true>(ends_of(end_of(p, i), end_of(p, j)), arm_offset, w.dt);
     const double one = inertia(sphere_inertia_factor, p.mass[i], p.radius[i]),
                  other = inertia(sphere_inertia_factor, p.mass[j], p.radius[j]);
     press(w, t, k, {i, j, false, one * other / (one + other), arm_offset}, touch - pair.distance, pair,
@@ -172,7 +172,7 @@ void wall_force(ImpactWorld& w, const Touch& touch) {
   const Wall& wall = w.scene.walls[w.walls.partner[touch.contact]].shape;
   constexpr double whole_arm = 0.5;  // is the particle's: the wall is an end at the nearest point
   Pair<double> pair =
-      relative_motion<true>(end_of(p, i), End<double>{touch.nearest.point, {}, {}}, whole_arm, w.dt);
+      relative_motion<true>(ends_of(end_of(p, i), End<double>{touch.nearest.point, {}, {}}), whole_arm, w.dt);
   const Vec3 before = p.position[i] - w.dt * p.velocity[i];
   const Vec3 l = nearest_on_wall(wall, before).point - before;  // the nearest point wanders along the wall
   pair.normal_before = (1.0 / norm(l)) * l;

@@ -13,6 +13,20 @@ struct End {
   Vec<R> w;  ///< 1/s
 };
 
+/// Both ends as their differences, which is all that matters.
+template <class R>
+struct Ends {
+  Vec<R> branch;           ///< m, x_hi - x_lo
+  Vec<R> velocity;         ///< m/s, v_hi - v_lo
+  Vec<R> spin_sum;         ///< 1/s, w_lo + w_hi
+  Vec<R> spin_difference;  ///< 1/s, w_lo - w_hi
+};
+
+template <class R>
+inline Ends<R> ends_of(const End<R>& lo, const End<R>& hi) {
+  return {hi.x - lo.x, hi.v - lo.v, lo.w + hi.w, lo.w - hi.w};
+}
+
 /// The pair seen from `lo`: every difference is hi minus lo.
 template <class R>
 struct Pair {
@@ -28,9 +42,8 @@ struct Pair {
 /// @param rotation   false: spins are taken as zero and cost nothing
 /// @param arm_offset  of the distance, 1/2 + this is the arm of lo, 1/2 - this that of hi
 template <bool rotation, class R>
-inline Pair<R> relative_motion(const End<R>& lo, const End<R>& hi, const R& arm_offset, double dt) {
-  const Vec<R> l = hi.x - lo.x;
-  const Vec<R> dv = hi.v - lo.v;
+inline Pair<R> relative_motion(const Ends<R>& ends, const R& arm_offset, double dt) {
+  const Vec<R>&l = ends.branch, &dv = ends.velocity;
   const R step = dt;
   Pair<R> p;
   // a step turns and stretches a pair little, so the distance before it, d0, needs neither root nor division:
@@ -48,9 +61,8 @@ inline Pair<R> relative_motion(const End<R>& lo, const End<R>& hi, const R& arm_
   if constexpr (rotation) {
     // arms times spins, as mean and difference of the ends: the same bits whichever end comes first, also
     // where the compiler fuses a product with a sum
-    const Vec<R> both = lo.w + hi.w;
-    at_contact -= cross(R(0.5) * both + arm_offset * (lo.w - hi.w), l);
-    p.twist = R(0.5 * dt) * dot(both, p.normal);
+    at_contact -= cross(R(0.5) * ends.spin_sum + arm_offset * ends.spin_difference, l);
+    p.twist = R(0.5 * dt) * dot(ends.spin_sum, p.normal);
   }
   p.slip = step * at_contact;
   return p;

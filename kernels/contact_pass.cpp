@@ -10,7 +10,7 @@ Vec3 pressed_force(const ContactPassIn& in, const ContactPassHistory& history, s
     return End<double>{in.position[row], in.velocity[row], rotation ? in.spin[row] : Vec3{}};
   };
   const Pair<double> pair =
-      relative_motion<rotation>(end(i), end(j), rotation ? in.arm_offset[c] : 0.0, in.dt);
+      relative_motion<rotation>(ends_of(end(i), end(j)), rotation ? in.arm_offset[c] : 0.0, in.dt);
   Vec3& shear = history.shear_force[c];
   const ContactConstants contact{in.stiffness[c], in.shear_ratio, in.damping.empty() ? 0.0 : in.damping[c],
                                  in.friction};

@@ -1,6 +1,6 @@
-// Rows of three numbers in memory, columns of them in wide registers: how a batch fetches the places,
-// velocities and spins of its ends, and hands back one row of force for each bond. A row is 32 bytes long and
-// so aligned (Vec3): one load, never across two cache lines. Included by files that are compiled per
+// Rows of three numbers in memory, columns of them in wide registers: how a batch fetches what its ends do,
+// and hands back one row of force for each bond. A row is 32 bytes long and so aligned (Vec3): one load,
+// never across two cache lines. Included by files that are compiled per
 // instruction set only.
 #pragma once
 #include <bit>
@@ -25,13 +25,13 @@ using Register [[gnu::vector_size(8 * width)]] = double;  // a column over the b
 }
 #endif
 
-/// The rows of a batch, as three columns over its lanes.
-[[gnu::always_inline]] inline Vec<Lanes> fetch_rows(const Vec3* column, const std::uint32_t* rows) {
+/// One row for each lane of a batch, row_of(lane), as three columns over the lanes.
+template <class RowOf>
+[[gnu::always_inline]] inline Vec<Lanes> columns_of(const RowOf& row_of) {
 #if defined(__AVX512F__)
   // pairs of rows (0,2), (1,3), (4,6), (5,7): neighbours are interleaved first, then quarters put in order
-  const auto r = [&](std::size_t k) -> const Four& { return four(column[rows[k]]); };
-  const Register a = joined(r(0), r(2)), b = joined(r(1), r(3)), c = joined(r(4), r(6)),
-                 d = joined(r(5), r(7));
+  const Register a = joined(row_of(0), row_of(2)), b = joined(row_of(1), row_of(3)),
+                 c = joined(row_of(4), row_of(6)), d = joined(row_of(5), row_of(7));
   const Register xz_low = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
   const Register xz_high = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
   const Register y_low = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
@@ -40,8 +40,7 @@ using Register [[gnu::vector_size(8 * width)]] = double;  // a column over the b
           std::bit_cast<Lanes>(__builtin_shufflevector(y_low, y_high, 0, 1, 4, 5, 8, 9, 12, 13)),
           std::bit_cast<Lanes>(__builtin_shufflevector(xz_low, xz_high, 2, 3, 6, 7, 10, 11, 14, 15))};
 #elif defined(__AVX__)
-  const Register a = four(column[rows[0]]), b = four(column[rows[1]]), c = four(column[rows[2]]),
-                 d = four(column[rows[3]]);
+  const Register a = row_of(0), b = row_of(1), c = row_of(2), d = row_of(3);
   const Register xz_low = __builtin_shufflevector(a, b, 0, 4, 2, 6),
                  xz_high = __builtin_shufflevector(c, d, 0, 4, 2, 6);
   const Register y_low = __builtin_shufflevector(a, b, 1, 5, 3, 7),
@@ -50,10 +49,12 @@ using Register [[gnu::vector_size(8 * width)]] = double;  // a column over the b
           std::bit_cast<Lanes>(__builtin_shufflevector(y_low, y_high, 0, 1, 4, 5)),
           std::bit_cast<Lanes>(__builtin_shufflevector(xz_low, xz_high, 2, 3, 6, 7))};
 #else
-  const auto gather = [&](double Vec3::*component) {
-    return Lanes([&](auto k) [[gnu::always_inline]] { return column[rows[k]].*component; });
+  Four rows[width];
+  for (std::size_t k = 0; k < width; ++k) rows[k] = row_of(k);
+  const auto column = [&](std::size_t component) {
+    return Lanes([&](auto k) [[gnu::always_inline]] { return rows[k][component]; });
   };
-  return {gather(&Vec3::x), gather(&Vec3::y), gather(&Vec3::z)};
+  return {column(0), column(1), column(2)};
 #endif
 }
 

@@ -9,7 +9,7 @@ using scene::Ball;
 
 namespace {
 
-using Ends = std::pair<Gid, Gid>;
+using GidPair = std::pair<Gid, Gid>;
 
 World crushed(ScatterKind scatter, int threads, const Features& asked = {}, bool record = true) {
   ref::Parameters p;
@@ -58,7 +58,7 @@ TEST_CASE(
                                            {ScatterKind::gather, 3}}) {
       World w = crushed(scatter, threads, asked);
       const double inner_step = w.dt;
-      std::map<Ends, std::pair<double, BondState>> want;
+      std::map<GidPair, std::pair<double, BondState>> want;
       for (int k = 0; k < 400; ++k) {
         const double now = w.time;
         CHECK(now == doctest::Approx(k * inner_step).epsilon(1e-9));
@@ -72,7 +72,7 @@ TEST_CASE(
       REQUIRE(broken.shear > 5);
       CHECK(w.cracks.missed == 0);
       CHECK(w.cracks.cracks.size() == broken.tension + broken.shear);
-      std::set<Ends> seen;
+      std::set<GidPair> seen;
       int wrong = 0;
       double before = 0;
       for (const Crack& c : w.cracks.cracks) {
@@ -135,7 +135,7 @@ TEST_CASE(
   const double stretch = T / k_n;  // the first step of the pass sees no motion yet
   CHECK(c.time == doctest::Approx(stretch / speed).epsilon(step / T));
   // ends by their ids: 3 is the upper sphere
-  CHECK(std::pair(c.gid_lo, c.gid_hi) == Ends{3, 8});
+  CHECK(std::pair(c.gid_lo, c.gid_hi) == GidPair{3, 8});
   CHECK(norm(c.normal - Vec3{0, 0, -1}) < 1e-12);
   CHECK(norm(c.position - Vec3{0, 0, 0.5 * stretch}) < 1e-6 * 0.02);
 }
