@@ -83,6 +83,7 @@ Reading read(World& w, const Instruments& in) {
 /// Broken bonds and energies at the end of a row.
 CurveRow state_row(World& w) {
   const Lap lap(w.phases, Phase::measure);
+  settle(w);
   CurveRow row;
   const BrokenCount broken = count_broken(w);
   row.broken_tension = static_cast<double>(broken.tension);

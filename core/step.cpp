@@ -1,4 +1,5 @@
 // The step, as a page of verbs.
+#include <algorithm>
 #include <array>
 
 #include "core/parallel.hpp"
@@ -23,20 +24,26 @@ void confine(World& w) {
   press_skin(w.confinement, w.particles);
 }
 
+/// The record of cracks looks at the bonds that have just broken.
+void settle_broken(World& w) {
+  if (w.narrow_bonds.empty()) return;
+  for (const BreakNotes& notes : w.cracks.notes)
+    for (const FreshBreak& broken : notes.room.first(std::min(notes.count, notes.room.size())))
+      widen_history(w.narrow_bonds, broken.bond, broken.bond + 1, w.bonds);
+}
+
 void bond_forces(World& w) {
   const Lap lap(w.phases, Phase::bonds);
   ParticleTable& p = w.particles;
   BondTable& b = w.bonds;
   const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, b.arm_offset, p);
-  const BondPassIn in{
-      w.dt,         constants_of(w.law), p.position, p.velocity,        p.spin,      b.row_lo, b.row_hi,
-      b.arm_offset, b.rest_length,       b.area,     strength_areas(b), b.stiffness, b.damping};
-  const BondPassHistory history{b.shear_x,         b.shear_y,       b.shear_z,
-                                b.plastic_stretch, b.damage_normal, b.damage_shear};
+  const BondPassIn in = bond_pass_in(w);
+  const BondPassHistory history = bond_pass_history(w);
   for_ranges(w.bond_plan.ranges, [&](int range) {
     w.bond_pass(in, history, w.bond_plan.first(range), w.bond_plan.first(range + 1), to,
                 notes_of(w.cracks, range));
   });
+  settle_broken(w);
   record_cracks(w.cracks, w.law, w.features.criterion == Criterion::coupled, w.time, w.dt, p, b);
 }
 

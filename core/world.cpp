@@ -67,7 +67,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.space = assembly.space;
   w.volume = assembly.volume();
   w.law = law_of_scene(material, factor.shear_ratio, options.features);
-  w.features = built_features(w.law, options.features);
+  w.features = built_features(w.law, options.features, options.precision);
   std::visit(
       [&](const auto& law) {
         w.young = law.young;
@@ -80,6 +80,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.first_top = assembly.first_top;
   set_masses(w.particles, material.density, w.space);
   set_bond_constants(w);
+  if (options.precision == Precision::mixed) w.narrow_bonds = narrow_bonds(w.bonds);
   w.critical_dt = critical_time_step(
       w.particles, w.bonds, w.shear_ratio,
       {options.features.rotation, w.space == Space::plane, inertia_factor(w)},
@@ -93,10 +94,33 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
       plan_scatter(options.scatter, options.threads, bond_batch, w.bonds.row_lo, w.bonds.row_hi,
                    std::span(w.bonds.gid_lo).first(w.bonds.size),
                    std::span(w.bonds.gid_hi).first(w.bonds.size), w.bonds.arm_offset, w.particles.size);
-  w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set);
+  w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set, options.precision);
   w.integrate_free = integrate_free_for(options.instruction_set);
   return w;
 }
+
+BondPassIn bond_pass_in(const World& w) {
+  const ParticleTable& p = w.particles;
+  const BondTable& b = w.bonds;
+  return {w.dt,
+          constants_of(w.law),
+          p.position,
+          p.velocity,
+          p.spin,
+          b.row_lo,
+          b.row_hi,
+          b.rest_length,
+          {b.arm_offset, b.area, strength_areas(b), b.stiffness, b.damping},
+          w.narrow_bonds.constants()};
+}
+
+BondPassHistory bond_pass_history(World& w) {
+  BondTable& b = w.bonds;
+  return {{b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear},
+          w.narrow_bonds.history()};
+}
+
+void settle(World& w) { widen_history(w.narrow_bonds, 0, w.bonds.padded, w.bonds); }
 
 double inertia_factor(const World& w) {
   return w.space == Space::plane ? disc_inertia_factor : sphere_inertia_factor;

@@ -6,6 +6,7 @@
 #include "core/boundary.hpp"
 #include "core/contacts.hpp"
 #include "core/crack_record.hpp"
+#include "core/narrow_bonds.hpp"
 #include "core/phases.hpp"
 #include "core/scatter_plan.hpp"
 #include "kernels/bond_pass.hpp"
@@ -26,6 +27,7 @@ struct WorldOptions {
   GlobalDamping global_damping{0.1, 0.1};
   double safety = 0.8;  ///< of the critical step
   ScatterKind scatter = ScatterKind::private_sums;
+  Precision precision = Precision::full;
   int threads = 1;
   InstructionSet instruction_set = best_instruction_set();
 };
@@ -47,6 +49,7 @@ struct World {
   std::uint64_t step = 0;
   ParticleTable particles;
   BondTable bonds;
+  NarrowBonds narrow_bonds;  ///< in mixed precision
   ContactTable contacts;
   std::size_t first_top = 0;
   Platens platens;
@@ -62,6 +65,13 @@ struct World {
 /// A specimen at rest, ready to be loaded.
 World make_world(const Assembly& assembly, const Material& material, const AreaFactor& factor,
                  const WorldOptions& options);
+
+/// What the bond pass reads and what it changes.
+BondPassIn bond_pass_in(const World& world);
+BondPassHistory bond_pass_history(World& world);
+
+/// Brings the table of bonds up to date, before anyone looks at it; in full precision it always is.
+void settle(World& world);
 
 /// One step: forces at the present positions, then kick and drift.
 void advance(World& world);

@@ -65,6 +65,7 @@ struct Case {
   TestCase test;
   double safety = 0.8;
   ScatterKind scatter = ScatterKind::private_sums;
+  Precision precision = Precision::full;
   int frames = 20;
   bool stress = false, cracks = true;  ///< output
   std::string resolved;                ///< the whole case as TOML, every default written out

@@ -64,6 +64,10 @@ std::string explain(const World& w) {
   const std::string bond_columns = columns_of(w.bonds, bond_bytes);
   text += fmt::format("\n{} particles of {} bytes\n{}", w.particles.size, particle_bytes, particle_columns);
   text += fmt::format("\n{} bonds of {} bytes\n{}", w.bonds.size, bond_bytes, bond_columns);
+  if (!w.narrow_bonds.empty())
+    text +=
+        "\nmixed precision: the loop reads and writes its own copy of the bonds, 4 bytes for each 8 but "
+        "those of rest_length\n";
   text += fmt::format("\nloops of a step, on {} thread{}\n", w.options.threads,
                       w.options.threads == 1 ? "" : "s");
   text += "  search       every 16 steps: has a particle used up the skin?\n";

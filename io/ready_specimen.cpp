@@ -40,8 +40,13 @@ namespace {
 Features features_that_run(const Case& c, const Features& asked) {
   const Material& m = c.materials.front();
   try {
-    return built_features(law_of(m, paper_shear_ratio(m.poisson_ratio)), asked);
+    return built_features(law_of(m, paper_shear_ratio(m.poisson_ratio)), asked, c.precision);
   } catch (const std::invalid_argument&) {
+    if (c.precision == Precision::mixed)
+      fail<BadInput>(
+          "{}: run.precision \"mixed\" is built for material.law \"dempack\" without the criterion "
+          "\"coupled\"; leave run.precision out",
+          c.source.string());
     fail<BadInput>("{}: material.law \"{}\" has no criterion \"coupled\"; leave material.criterion out",
                    c.source.string(), m.law);
   }

@@ -53,6 +53,7 @@ WorldOptions world_options(const Case& c, const std::string& test, const Feature
   o.global_damping = {c.damping.translation, c.damping.rotation};
   o.safety = c.safety;
   o.scatter = c.scatter;
+  o.precision = c.precision;
   o.threads = threads;
   return o;
 }

@@ -13,18 +13,34 @@ namespace breccia {
 /// Bonds are padded to a multiple of this, whatever the register's width.
 inline constexpr std::size_t bond_batch = 8;
 
-/// What the pass reads. Particle spans by particle row, bond spans by bond row.
+/// What does not change of the bonds, beside their rest length. `Stored`: double, or float for mixed
+/// precision.
+template <class Stored>
+struct BondConstantColumns {
+  std::span<const Stored> arm_offset, area, strength_area, stiffness, damping;
+};
+
+/// What the pass changes.
+template <class Stored>
+struct BondHistoryColumns {
+  std::span<Stored> shear_x, shear_y, shear_z, plastic_stretch, damage_normal, damage_shear;
+};
+
+/// What the pass reads. Particle spans by particle row, bond spans by bond row; columns of absent features,
+/// and those of the precision that does not run, are empty.
 struct BondPassIn {
   double dt = 0;              ///< s
   const void* law = nullptr;  ///< constants, of the type that the kernel was chosen for (see constants_of)
   std::span<const Vec3> position, velocity, spin;
   std::span<const Index> row_lo, row_hi;
-  std::span<const double> arm_offset, rest_length, area, strength_area, stiffness, damping;
+  std::span<const double> rest_length;
+  BondConstantColumns<double> constants;
+  BondConstantColumns<float> narrow_constants;
 };
 
-/// What the pass changes; columns of absent features are empty.
 struct BondPassHistory {
-  std::span<double> shear_x, shear_y, shear_z, plastic_stretch, damage_normal, damage_shear;
+  BondHistoryColumns<double> full;
+  BondHistoryColumns<float> narrow;
 };
 
 /// A bond that broke in this step, as it was before.
@@ -47,10 +63,12 @@ using BondPass = void (*)(const BondPassIn&, const BondPassHistory&, std::size_t
 /// The feature set that will run for a scene: the one asked for, or its nearest superset that is built for
 /// the law.
 /// @throws std::invalid_argument when none is
-Features built_features(const BondLaw& law, const Features& asked);
+Features built_features(const BondLaw& law, const Features& asked, Precision precision = Precision::full);
 
 /// The kernel for features that are built (see built_features).
-BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set);
+/// @throws std::invalid_argument when there is none, or none of this precision
+BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set,
+                       Precision precision = Precision::full);
 
 /// The law's constants as the kernel takes them; valid as long as the law.
 inline const void* constants_of(const BondLaw& law) {

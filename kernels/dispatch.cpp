@@ -9,14 +9,17 @@ namespace breccia {
 
 namespace x86_64 {
 extern const std::array<BondPass, kernel_list.size()> passes;
+extern const BondPass mixed;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 }  // namespace x86_64
 namespace x86_64_v3 {
 extern const std::array<BondPass, kernel_list.size()> passes;
+extern const BondPass mixed;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 }  // namespace x86_64_v3
 namespace x86_64_v4 {
 extern const std::array<BondPass, kernel_list.size()> passes;
+extern const BondPass mixed;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 }  // namespace x86_64_v4
 
@@ -50,15 +53,37 @@ IntegrateFree integrate_free_for(InstructionSet set) {
   throw std::invalid_argument("no such instruction set");
 }
 
-Features built_features(const BondLaw& law, const Features& asked) {
-  for (const KernelKind& kernel : kernel_list)
-    if (kernel.law == law.index() && kernel.features.covers(asked)) return kernel.features;
+Features built_features(const BondLaw& law, const Features& asked, Precision precision) {
+  for (std::size_t k = 0; k < kernel_list.size(); ++k)
+    if (kernel_list[k].law == law.index() && kernel_list[k].features.covers(asked) &&
+        (precision == Precision::full || k == mixed_kernel))
+      return kernel_list[k].features;
   throw std::invalid_argument("no bond kernel of this law covers the scene's features");
 }
 
-BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set) {
+namespace {
+
+BondPass mixed_pass_for(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::x86_64:
+      return x86_64::mixed;
+    case InstructionSet::x86_64_v3:
+      return x86_64_v3::mixed;
+    case InstructionSet::x86_64_v4:
+      return x86_64_v4::mixed;
+  }
+  throw std::invalid_argument("no such instruction set");
+}
+
+}  // namespace
+
+BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set, Precision precision) {
   for (std::size_t k = 0; k < kernel_list.size(); ++k) {
     if (kernel_list[k].law != law.index() || !(kernel_list[k].features == built)) continue;
+    if (precision == Precision::mixed) {
+      if (k != mixed_kernel) break;
+      return mixed_pass_for(set);
+    }
     switch (set) {
       case InstructionSet::x86_64:
         return x86_64::passes[k];

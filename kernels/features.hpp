@@ -6,6 +6,10 @@ namespace breccia {
 /// How tension and shear share the strength of a bond (MODEL: uncoupled is the paper's default).
 enum class Criterion : unsigned char { uncoupled, coupled, mohr_coulomb };
 
+/// How bonds are stored in the loop. Places, forces and sums are doubles always.
+/// mixed: parameters and history as floats, but for the rest length
+enum class Precision : unsigned char { full, mixed };
+
 /// A structural type, so that a kernel can take it as a template parameter.
 struct Features {
   bool rotation = true;         ///< particles spin; bonds pass torques

@@ -154,17 +154,6 @@ inline reference::World to_reference(const World& w, const reference::Parameters
   return r;
 }
 
-/// What the bond pass of a world reads and changes.
-inline BondPassIn bond_pass_in(const World& w) {
-  const ParticleTable& p = w.particles;
-  const BondTable& b = w.bonds;
-  return {w.dt,         constants_of(w.law), p.position, p.velocity,        p.spin,      b.row_lo, b.row_hi,
-          b.arm_offset, b.rest_length,       b.area,     strength_areas(b), b.stiffness, b.damping};
-}
-inline BondPassHistory bond_history(BondTable& b) {
-  return {b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear};
-}
-
 /// Speeds of the lower and the upper platen along z, m/s.
 inline void drive(World& w, double lower, double upper) {
   w.platens.velocity = {Vec3{0, 0, lower}, Vec3{0, 0, upper}};
@@ -185,7 +174,7 @@ inline Forces forces_now(World w) {  // a copy: history advances
   Scatter to;
   to.to_lo = b.row_lo, to.to_hi = b.row_hi, to.arm_offset = b.arm_offset;
   to.force = f.force, to.torque = f.torque;
-  w.bond_pass(bond_pass_in(w), bond_history(b), 0, b.padded, to, nullptr);
+  w.bond_pass(bond_pass_in(w), bond_pass_history(w), 0, b.padded, to, nullptr);
   ContactTable& c = w.contacts;
   to.to_lo = c.row_lo, to.to_hi = c.row_hi, to.arm_offset = c.arm_offset;
   contact_pass({w.dt, w.shear_ratio, w.friction, w.features.rotation, p.position, p.velocity, p.spin,

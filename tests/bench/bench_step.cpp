@@ -45,16 +45,19 @@ void put_into_state(World& w, int state) {
   }
 }
 
-World world(const benchmark::State& s, ScatterKind scatter = ScatterKind::private_sums) {
+World world(const benchmark::State& s, ScatterKind scatter = ScatterKind::private_sums,
+            Precision precision = Precision::full) {
   WorldOptions options;
   options.threads = static_cast<int>(s.range(1));
   options.scatter = scatter;
+  options.precision = precision;
   AreaFactor factor;
   factor.alpha = 0.8;
   factor.shear_ratio = 0.33;
   World w = make_world(cylinder(static_cast<std::size_t>(s.range(0)) * 1000), scene::material_of({}), factor,
                        options);
   put_into_state(w, static_cast<int>(s.range(2)));
+  if (precision == Precision::mixed) w.narrow_bonds = narrow_bonds(w.bonds);
   w.platens.velocity = {Vec3{0, 0, 0.02}, Vec3{0, 0, -0.02}};
   for (int k = 0; k < 20; ++k) advance(w);
   return w;
@@ -73,8 +76,8 @@ void time_each(benchmark::State& s, std::size_t items, const Work& work) {
   s.counters["best_ns"] = 1e9 * best / static_cast<double>(items);
 }
 
-void whole_step(benchmark::State& s, ScatterKind scatter) {
-  World w = world(s, scatter);
+void whole_step(benchmark::State& s, ScatterKind scatter, Precision precision = Precision::full) {
+  World w = world(s, scatter, precision);
   time_each(s, w.bonds.size, [&] { advance(w); });
   for (const Phase phase : {Phase::bonds, Phase::gather, Phase::integrate})
     s.counters[std::string(phase_names[static_cast<std::size_t>(phase)])] =
@@ -87,8 +90,8 @@ void pass(benchmark::State& s) {
   ParticleTable& p = w.particles;
   BondTable& b = w.bonds;
   const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, b.arm_offset, p);
-  const BondPassIn in = scene::bond_pass_in(w);
-  const BondPassHistory history = scene::bond_history(b);
+  const BondPassIn in = bond_pass_in(w);
+  const BondPassHistory history = bond_pass_history(w);
   time_each(s, b.size, [&] { w.bond_pass(in, history, 0, b.padded, to, nullptr); });
 }
 
@@ -101,6 +104,7 @@ void states(benchmark::internal::Benchmark* b) {
 
 BENCHMARK(pass)->Args({14, 1, 0})->Args({14, 1, 1})->Args({66, 1, 0})->Args({66, 1, 1});
 BENCHMARK_CAPTURE(whole_step, private, ScatterKind::private_sums)->Apply(states);
+BENCHMARK_CAPTURE(whole_step, mixed, ScatterKind::private_sums, Precision::mixed)->Apply(states);
 BENCHMARK_CAPTURE(whole_step, gather, ScatterKind::gather)->Apply(states);
 
 }  // namespace

@@ -143,7 +143,7 @@ TEST_CASE(
         w.particles.spin[row] = axis;
       }
       BondTable& b = w.bonds;
-      w.bond_pass(scene::bond_pass_in(w), scene::bond_history(b), 0, b.padded, to, nullptr);
+      w.bond_pass(bond_pass_in(w), bond_pass_history(w), 0, b.padded, to, nullptr);
     }
     double worst = 0, bound = 1e-12;
     for (std::size_t k = 0; k < w.bonds.size; ++k) {

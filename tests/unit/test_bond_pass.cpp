@@ -129,9 +129,18 @@ Loads pass(Bundle& s, const Features& features, InstructionSet set) {
   to.bond_load = c.load;
   const BondLaw law = scene::law(s.parameters);
   bond_pass_for(law, features, set)(
-      {s.dt, constants_of(law), p.position, p.velocity, p.spin, b.row_lo, b.row_hi, b.arm_offset,
-       b.rest_length, b.area, b.area, b.stiffness, b.damping},
-      scene::bond_history(b), 0, b.padded, to, nullptr);
+      {s.dt,
+       constants_of(law),
+       p.position,
+       p.velocity,
+       p.spin,
+       b.row_lo,
+       b.row_hi,
+       b.rest_length,
+       {b.arm_offset, b.area, b.area, b.stiffness, b.damping},
+       {}},
+      {{b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear}, {}}, 0,
+      b.padded, to, nullptr);
   return c;
 }
 
