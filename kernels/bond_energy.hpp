@@ -40,11 +40,15 @@ template <class Law>
 inline double stored_energy(const Law& law, const BondConstants<double>& bond, const BondHistory<double>& h,
                             double distance, bool coupled) {
   if (!(bond.stiffness > 0.0)) return 0.0;
-  const BondSecant s = secant_of(law, bond, h, distance, coupled);
-  const double shear = norm(h.shear);  // k_s times the secant displacement, or the friction force
+  BondSecant s;
+  if (h.damage_normal == 0.0 && h.damage_shear == 0.0)  // most bonds: both factors are 1
+    s.elastic = distance - bond.rest_length - h.plastic_stretch;
+  else
+    s = secant_of(law, bond, h, distance, coupled);
+  const double shear2 = dot(h.shear, h.shear);  // of k_s times the secant displacement, or of the friction
   const double normal_part = 0.5 * bond.stiffness * s.normal * s.elastic * s.elastic;
   if (!(law.shear_ratio > 0.0)) return normal_part;
-  return normal_part + 0.5 * s.shear * shear * shear / (law.shear_ratio * bond.stiffness);
+  return normal_part + 0.5 * s.shear * shear2 / (law.shear_ratio * bond.stiffness);
 }
 
 /// Spring forces that the state stands for, N; damping is not among them.

@@ -9,20 +9,22 @@
 #include <chrono>
 #include <map>
 
+#include "core/law_of_material.hpp"
 #include "tests/scene.hpp"
 
 namespace {
 
 using namespace breccia;
 
-const Assembly& cylinder(std::size_t spheres) {
-  static std::map<std::size_t, Assembly> made;
+constexpr Body body{Shape::cylinder, 0.15, 0, 0.3};
+
+const Specimen& packing(std::size_t spheres) {
+  static std::map<std::size_t, Specimen> made;
   const auto [at, is_new] = made.try_emplace(spheres);
   if (is_new) {
-    const Body body{Shape::cylinder, 0.15, 0, 0.3};
     PackRequest request;
     request.spheres = spheres;
-    at->second = assemble(pack_spheres(body, request), body, {}, Features{}, 2);
+    at->second = pack_spheres(body, request);
   }
   return at->second;
 }
@@ -46,7 +48,7 @@ void put_into_state(World& w, int state) {
 }
 
 World world(const benchmark::State& s, ScatterKind scatter = ScatterKind::private_sums,
-            Precision precision = Precision::full) {
+            Precision precision = Precision::full, const Features& features = {}) {
   WorldOptions options;
   options.threads = static_cast<int>(s.range(1));
   options.scatter = scatter;
@@ -54,8 +56,11 @@ World world(const benchmark::State& s, ScatterKind scatter = ScatterKind::privat
   AreaFactor factor;
   factor.alpha = 0.8;
   factor.shear_ratio = 0.33;
-  World w = make_world(cylinder(static_cast<std::size_t>(s.range(0)) * 1000), scene::material_of({}), factor,
-                       options);
+  options.features = features;
+  const Material material = scene::material_of({});
+  const Assembly a = assemble(packing(static_cast<std::size_t>(s.range(0)) * 1000), body, {},
+                              built_features(law_of(material, factor.shear_ratio), features), 2);
+  World w = make_world(a, material, factor, options);
   put_into_state(w, static_cast<int>(s.range(2)));
   if (precision == Precision::mixed) w.narrow_bonds = narrow_bonds(w.bonds);
   w.platens.velocity = {Vec3{0, 0, 0.02}, Vec3{0, 0, -0.02}};
@@ -76,8 +81,9 @@ void time_each(benchmark::State& s, std::size_t items, const Work& work) {
   s.counters["best_ns"] = 1e9 * best / static_cast<double>(items);
 }
 
-void whole_step(benchmark::State& s, ScatterKind scatter, Precision precision = Precision::full) {
-  World w = world(s, scatter, precision);
+void whole_step(benchmark::State& s, ScatterKind scatter, Precision precision = Precision::full,
+                const Features& features = {}) {
+  World w = world(s, scatter, precision, features);
   time_each(s, w.bonds.size, [&] { advance(w); });
   for (const Phase phase : {Phase::bonds, Phase::gather, Phase::integrate})
     s.counters[std::string(phase_names[static_cast<std::size_t>(phase)])] =
@@ -95,6 +101,12 @@ void pass(benchmark::State& s) {
   time_each(s, b.size, [&] { w.bond_pass(in, history, 0, b.padded, to, nullptr); });
 }
 
+/// The energy that the bonds store, as every row of a curve has it.
+void energy(benchmark::State& s) {
+  World w = world(s);
+  time_each(s, w.bonds.size, [&] { benchmark::DoNotOptimize(stored_energy(w)); });
+}
+
 void states(benchmark::internal::Benchmark* b) {
   for (const int spheres : {14, 66})
     for (const int threads : {1, 2})
@@ -102,8 +114,24 @@ void states(benchmark::internal::Benchmark* b) {
   b->UseRealTime();
 }
 
+void intact(benchmark::internal::Benchmark* b) {
+  for (const int spheres : {14, 66}) b->Args({spheres, 1, 0});
+  b->UseRealTime();
+}
+
 BENCHMARK(pass)->Args({14, 1, 0})->Args({14, 1, 1})->Args({66, 1, 0})->Args({66, 1, 1});
+BENCHMARK(energy)->Args({14, 1, 0})->Args({14, 1, 1})->Args({66, 1, 0});
 BENCHMARK_CAPTURE(whole_step, private, ScatterKind::private_sums)->Apply(states);
+// what a scene leaves out
+constexpr ScatterKind sums = ScatterKind::private_sums;
+BENCHMARK_CAPTURE(whole_step, no_rotation, sums, Precision::full, Features{.rotation = false})->Apply(intact);
+BENCHMARK_CAPTURE(whole_step, no_plasticity, sums, Precision::full, Features{.plasticity = false})
+    ->Apply(intact);
+BENCHMARK_CAPTURE(whole_step, elastic, sums, Precision::full,
+                  Features{.plasticity = false, .breakage = false})
+    ->Apply(intact);
+BENCHMARK_CAPTURE(whole_step, coupled, sums, Precision::full, Features{.criterion = Criterion::coupled})
+    ->Apply(intact);
 BENCHMARK_CAPTURE(whole_step, mixed, ScatterKind::private_sums, Precision::mixed)->Apply(states);
 BENCHMARK_CAPTURE(whole_step, gather, ScatterKind::gather)->Apply(states);
 
