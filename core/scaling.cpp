@@ -53,6 +53,13 @@ LoadTest compression() {
   return test;
 }
 
+/// True for runs that are compared with each other: same study and scatter, and in strong scaling the same
+/// specimen.
+bool same_series(const ScalingPoint& a, const ScalingPoint& b) {
+  return a.study == b.study && a.scatter == b.scatter &&
+         (a.study == ScalingStudy::weak || a.spheres == b.spheres);
+}
+
 }  // namespace
 
 double ScalingRun::all_seconds() const { return std::accumulate(seconds.begin(), seconds.end(), 0.0); }
@@ -71,7 +78,7 @@ ScalingSpecimen make_scaling_specimen(std::size_t spheres, const Material& mater
 
 ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& material,
                            const ScalingPoint& point, const ScalingBlocks& blocks,
-                           const ScalingHooks& hooks) {
+                           const ScalingProgress& progress) {
   // ranges alone do not bind: TBB would spread them over all its threads, each with caches of its own
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(point.threads));
@@ -86,9 +93,9 @@ ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& mate
   BlockClock clock(blocks, run);
   LoadHooks load;
   load.interrupted = [&] { return clock.tick(w); };
-  if (hooks.progress)
+  if (progress)
     load.progress = [&](int, double, const CurveRow& row) {
-      hooks.progress(w, static_cast<double>(w.step) / static_cast<double>(blocks.all_steps()), row);
+      progress(w, static_cast<double>(w.step) / static_cast<double>(blocks.all_steps()), row);
     };
   LoadResult result;
   result.record.steps_per_row = ScalingBlocks::steps_per_row;
@@ -121,17 +128,12 @@ double table_bytes_per_bond(const ScalingRun& run) {
   return static_cast<double>(run.table_bytes) / static_cast<double>(run.bonds);
 }
 
-bool same_series(const ScalingPoint& a, const ScalingPoint& b) {
-  return a.study == b.study && a.scatter == b.scatter &&
-         (a.study == ScalingStudy::weak || a.spheres == b.spheres);
-}
-
 ScalingGain gain_of(const ScalingRun& run, const std::vector<ScalingRun>& runs) {
   const ScalingRun* base = &run;
   for (const ScalingRun& other : runs)
     if (same_series(run.point, other.point) && other.point.threads < base->point.threads) base = &other;
-  const double speed_up = base->point.threads * bond_updates(run) / bond_updates(*base);
-  return {speed_up, speed_up / run.point.threads};
+  const double speed_up = bond_updates(run) / bond_updates(*base);
+  return {speed_up, speed_up * base->point.threads / run.point.threads};
 }
 
 }  // namespace breccia

@@ -65,18 +65,15 @@ struct ScalingRun {
   double all_seconds() const;  ///< of all blocks
 };
 
-/// What a program does while a point is measured.
-struct ScalingHooks {
-  /// about ten times a second at most: the fraction of the point's steps done, and the present row
-  std::function<void(const World&, double, const CurveRow&)> progress;
-};
+/// Called about ten times a second at most: the fraction of the point's steps done, and the present row.
+using ScalingProgress = std::function<void(const World&, double, const CurveRow&)>;
 
 /// The test as breccia-ucs runs it, from rest, on at most as many threads as the point says.
 /// @param blocks  at most `most_steps` in all
 /// @throws SimulationBroke
 ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& material,
                            const ScalingPoint& point, const ScalingBlocks& blocks,
-                           const ScalingHooks& hooks = {});
+                           const ScalingProgress& progress = {});
 
 /// s, over the blocks.
 struct StepTime {
@@ -90,15 +87,11 @@ double bond_updates(const ScalingRun& run);
 /// Of all tables together, spheres and contacts too.
 double table_bytes_per_bond(const ScalingRun& run);
 
-/// Speed-up: bond updates per second over those of the run with the fewest threads in the same study, times
-/// its threads (of one specimen that is t_1/t_n). Efficiency: speed-up over threads.
+/// Speed-up: bond updates per second over those of the run with the fewest threads in the same series (of one
+/// specimen that is t_1/t_n). Efficiency: speed-up over the ratio of threads.
 struct ScalingGain {
   double speed_up = 1, efficiency = 1;
 };
 ScalingGain gain_of(const ScalingRun& run, const std::vector<ScalingRun>& runs);
-
-/// True for runs that are compared with each other: same study and scatter, and in strong scaling the same
-/// specimen.
-bool same_series(const ScalingPoint& a, const ScalingPoint& b);
 
 }  // namespace breccia

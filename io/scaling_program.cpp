@@ -20,19 +20,17 @@ Material preset(const std::string& name) {
 
 std::string heading(const ScalingOptions& o, const ScalingResults& r) {
   const Machine& m = r.machine;
-  return fmt::format(
-      "uniaxial compression of a cylinder of {}, {:.0f} x {:.0f} mm, law dempack, packed; area factor of an "
-      "affine "
-      "deformation\n"
-      "{} blocks of {} steps after {} steps of warm-up, a row of the curve every {} steps; medians of the "
-      "blocks\n"
-      "{}, {} of {} cores, {}, {}; load average {:.2f}{}",
-      r.material, 1e3 * scaling_body.diameter, 1e3 * scaling_body.height, o.blocks.repeat, o.blocks.steps,
-      o.blocks.warm_up, ScalingBlocks::steps_per_row, m.cpu, m.cores, m.cores_online, m.instruction_set,
-      m.compiler, m.load_average,
-      o.threads.back() > m.cores
-          ? fmt::format("\nwarning: {} threads share {} cores", o.threads.back(), m.cores)
-          : "");
+  std::string text = fmt::format(
+      "uniaxial compression of a packed cylinder of {}, {:.0f} x {:.0f} mm, law dempack, affine area "
+      "factor\n",
+      r.material, 1e3 * scaling_body.diameter, 1e3 * scaling_body.height);
+  text += fmt::format("medians of {} blocks of {} steps after {} of warm-up; a row of the curve every {}\n",
+                      o.blocks.repeat, o.blocks.steps, o.blocks.warm_up, ScalingBlocks::steps_per_row);
+  text += fmt::format("{}, {} of {} cores, {}, {}; load average {:.2f}", m.cpu, m.cores, m.cores_online,
+                      m.instruction_set, m.compiler, m.load_average);
+  if (o.threads.back() > m.cores)
+    text += fmt::format("\nwarning: {} threads share {} cores", o.threads.back(), m.cores);
+  return text;
 }
 
 void run_study(const ScalingOptions& options) {
@@ -54,9 +52,10 @@ void run_study(const ScalingOptions& options) {
       spheres = point.spheres;
     }
     begin(progress, fmt::format("{} of {}, {}", k + 1, points.size(), describe(point)));
-    const ScalingHooks hooks{
-        [&](const World& w, double fraction, const CurveRow& row) { tell(progress, w, 2, fraction, row); }};
-    results.runs.push_back(measure_scaling(specimen, material, point, options.blocks, hooks));
+    const ScalingProgress shown = [&](const World& w, double fraction, const CurveRow& row) {
+      tell(progress, w, 2, fraction, row);
+    };
+    results.runs.push_back(measure_scaling(specimen, material, point, options.blocks, shown));
     write_scaling_csv(options.out / "scaling.csv", results);
     write_scaling_json(options.out / "scaling.json", results);
     say(progress, describe(results.runs.back(), results.runs));

@@ -15,7 +15,7 @@ struct TextColumn {
 /// @param columns  all of the same number of cells
 std::string format_columns(const std::vector<TextColumn>& columns);
 
-/// Four digits that count, never with an exponent: "0.4321", "43.21", "4321".
+/// Four digits, of a number below 1 four decimals, never an exponent: "0.4321", "43.21", "4321".
 std::string four_digits(double value);
 
 }  // namespace breccia
