@@ -1,6 +1,7 @@
 // What a COLUMNS macro makes: one vector per column, and a visitor over all of them.
 #pragma once
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 #include "core/column.hpp"
@@ -26,6 +27,16 @@ constexpr bool is_needed(Need need, const Features& features) {
       return false;  // made by the one who fills it
   }
   return true;
+}
+
+/// Bytes that the columns of a table hold, padding included.
+template <class Table>
+std::size_t column_bytes(const Table& table) {
+  std::size_t bytes = 0;
+  table.for_each_column([&](const ColumnInfo&, const auto& column) {
+    bytes += column.size() * sizeof(typename std::decay_t<decltype(column)>::value_type);
+  });
+  return bytes;
 }
 
 }  // namespace breccia

@@ -25,12 +25,6 @@ void ask_to_stop(int) {
   stop_asked = true;
 }
 
-int available_cores() {
-  cpu_set_t mask;
-  CPU_ZERO(&mask);
-  return sched_getaffinity(0, sizeof(mask), &mask) == 0 ? std::max(1, CPU_COUNT(&mask)) : 1;
-}
-
 int end(const std::string& program, std::string_view what, int code) {
   std::string line(what);
   std::replace(line.begin(), line.end(), '\n', ' ');
@@ -50,6 +44,43 @@ void refuse_ranks() {
 bool interrupted() { return stop_asked; }
 
 void begin_results() { results_begun = true; }
+
+int available_cores() {
+  cpu_set_t mask;
+  CPU_ZERO(&mask);
+  return sched_getaffinity(0, sizeof(mask), &mask) == 0 ? std::max(1, CPU_COUNT(&mask)) : 1;
+}
+
+std::optional<int> read_command_line(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return end(app.get_name(), fmt::format("{} (see {} --help)", error.what(), app.get_name()), 2);
+  }
+  return std::nullopt;
+}
+
+int run_body(const std::string& program, int threads, const std::function<void()>& body) {
+  struct sigaction action {};
+  action.sa_handler = ask_to_stop;
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  try {
+    refuse_ranks();
+    body();
+  } catch (const BadInput& error) {
+    return end(program, error.what(), 2);
+  } catch (const SimulationBroke& error) {
+    return end(program, error.what(), 3);
+  } catch (const FileTrouble& error) {
+    return end(program, error.what(), 4);
+  } catch (const std::bad_alloc&) {
+    return end(program, "not enough memory: use fewer spheres", 3);
+  }
+  return interrupted() ? 130 : 0;
+}
 
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,
                 const std::function<void(const CommandLine&)>& body, const std::string& keys) {
@@ -71,34 +102,13 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   app.add_flag("--quiet", line.quiet, "errors only");
   app.add_flag("--resume", resume, "not in this version");
   app.footer(keys.empty() ? describe_keys(name) : keys);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return end(program, fmt::format("{} (see {} --help)", error.what(), program), 2);
-  }
+  if (const auto code = read_command_line(app, argc, argv)) return *code;
   if (line.out.empty()) line.out = std::filesystem::path("out") / line.case_file.stem();
-
-  struct sigaction action {};
-  action.sa_handler = ask_to_stop;
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(line.threads));
-  try {
+  return run_body(program, line.threads, [&] {
     if (resume)
       fail<BadInput>("--resume: not in this version; run without it, with --force to replace the results");
-    refuse_ranks();
     body(line);
-  } catch (const BadInput& error) {
-    return end(program, error.what(), 2);
-  } catch (const SimulationBroke& error) {
-    return end(program, error.what(), 3);
-  } catch (const FileTrouble& error) {
-    return end(program, error.what(), 4);
-  } catch (const std::bad_alloc&) {
-    return end(program, "not enough memory: use fewer spheres", 3);
-  }
-  return interrupted() ? 130 : 0;
+  });
 }
 
 }  // namespace breccia

@@ -2,8 +2,13 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace breccia {
 
@@ -22,8 +27,19 @@ bool interrupted();
 /// From here on a signal only makes `interrupted()` true; before, it ends the program at once.
 void begin_results();
 
-/// Reads the command line, runs `body` and turns what it throws into one line on stderr and the exit code:
-/// 0 done, 2 bad input, 3 the simulation broke, 4 files, 130 interrupted.
+/// Cores of the affinity mask.
+int available_cores();
+
+/// Reads the words after the program's name. @returns nothing when the program is to run; else its exit code,
+/// after --help, --version, or one line on stderr
+std::optional<int> read_command_line(CLI::App& app, int argc, char** argv);
+
+/// Runs `body` on at most `threads` threads and turns what it throws into one line on stderr and the exit
+/// code: 0 done, 2 bad input, 3 the simulation broke, 4 files, 130 interrupted.
+/// @param program  its whole name, "breccia-ucs"
+int run_body(const std::string& program, int threads, const std::function<void()>& body);
+
+/// A program with a case: reads the command line and runs `body`; the exit code is that of `run_body`.
 /// @param about  one line for --help
 /// @param keys   the reference of keys for --help; empty: describe_keys(name)
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,

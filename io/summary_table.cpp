@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "io/summary.hpp"
+#include "io/text_table.hpp"
 
 namespace breccia {
 namespace {
@@ -59,22 +60,13 @@ std::vector<Column> columns() {
 }
 
 std::string results_of(const std::vector<RunSummary>& runs) {
-  std::vector<std::string> lines(runs.size() + 2);
+  std::vector<TextColumn> table;
   for (const Column& column : columns()) {
-    std::vector<std::string> cells{std::string(column.name), std::string(column.unit)};
-    for (const RunSummary& run : runs) cells.push_back(column.text(run));
-    if (std::all_of(cells.begin() + 2, cells.end(), [](const std::string& cell) { return cell.empty(); }))
-      continue;
-    std::size_t width = 0;
-    for (std::string& cell : cells) {
-      if (cell.empty() && &cell != &cells[1]) cell.assign(1, '-');
-      width = std::max(width, cell.size());
-    }
-    for (std::size_t i = 0; i < cells.size(); ++i) lines[i] += fmt::format("  {:>{}}", cells[i], width);
+    TextColumn& shown =
+        table.emplace_back(TextColumn{std::string(column.name), std::string(column.unit), {}});
+    for (const RunSummary& run : runs) shown.cells.push_back(column.text(run));
   }
-  std::string text;
-  for (const std::string& line : lines) text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
-  return text;
+  return format_columns(table);
 }
 
 /// Shares of the phases in the time of all runs, largest first; what no phase claims is "other".
