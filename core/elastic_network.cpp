@@ -65,6 +65,14 @@ ElasticNetwork elastic_network(const ParticleTable& p, const BondTable& b, bool 
   return net;
 }
 
+void set_constants(ElasticNetwork& net, const std::function<SpringConstants(std::size_t)>& constants) {
+  for (std::size_t k = 0; k < net.springs.size(); ++k) {
+    const auto [normal, shear] = constants(k);
+    net.springs[k].k_n = normal;
+    net.springs[k].k_s = shear;
+  }
+}
+
 void apply_stiffness(const ElasticNetwork& net, const Eigen::VectorXd& u, Eigen::VectorXd& forces) {
   for_rows(net.particles, net.threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {

@@ -33,6 +33,9 @@ struct SpringConstants {
 ElasticNetwork elastic_network(const ParticleTable& particles, const BondTable& bonds, bool rotation,
                                int threads, const std::function<SpringConstants(std::size_t)>& constants);
 
+/// The same network with other stiffnesses.
+void set_constants(ElasticNetwork& network, const std::function<SpringConstants(std::size_t)>& constants);
+
 /// forces = K displacements; both of 6 * particles.
 void apply_stiffness(const ElasticNetwork& network, const Eigen::VectorXd& displacements,
                      Eigen::VectorXd& forces);

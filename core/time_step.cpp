@@ -26,8 +26,8 @@ double largest_eigenvalue(const Block& block) {
   return Eigen::SelfAdjointEigenSolver<Block>(block, Eigen::EigenvaluesOnly).eigenvalues()[5];
 }
 
-/// M^-1/2 (dt^2 K/4 + dt C/2) M^-1/2 as Spectra wants it: the bonds with constants of their own.
-struct StepOperator {
+/// M^-1/2 K M^-1/2 of a network, as Spectra wants it.
+struct ScaledNetwork {
   using Scalar = double;
   ElasticNetwork network;
   Eigen::VectorXd by_mass;  ///< 1/sqrt of mass and inertia
@@ -42,25 +42,21 @@ struct StepOperator {
   }
 };
 
-StepOperator step_operator(const ParticleTable& p, const BondTable& b, const Freedom& freedom, int threads,
-                           const std::function<SpringConstants(std::size_t)>& constants) {
-  StepOperator op;
-  op.network = elastic_network(p, b, freedom.rotation, threads, constants);
-  op.by_mass.resize(static_cast<Eigen::Index>(6 * p.size));
-  op.out.resize(op.by_mass.size());
+Eigen::VectorXd roots_of_masses(const ParticleTable& p, const Freedom& freedom) {
+  Eigen::VectorXd by_mass(static_cast<Eigen::Index>(6 * p.size));
   for (std::size_t row = 0; row < p.size; ++row) {
     const auto at = static_cast<Eigen::Index>(6 * row);
-    op.by_mass.segment<3>(at).setConstant(1.0 / std::sqrt(p.mass[row]));
-    op.by_mass.segment<3>(at + 3).setConstant(
+    by_mass.segment<3>(at).setConstant(1.0 / std::sqrt(p.mass[row]));
+    by_mass.segment<3>(at + 3).setConstant(
         1.0 / std::sqrt(inertia(freedom.inertia_factor, p.mass[row], p.radius[row])));
-    if (freedom.plane) op.by_mass[at + 1] = op.by_mass[at + 3] = op.by_mass[at + 5] = 0.0;
+    if (freedom.plane) by_mass[at + 1] = by_mass[at + 3] = by_mass[at + 5] = 0.0;
   }
-  return op;
+  return by_mass;
 }
 
-double rayleigh_quotient(const StepOperator& op, const Eigen::VectorXd& x) {
+double rayleigh_quotient(const ScaledNetwork& net, const Eigen::VectorXd& x) {
   Eigen::VectorXd y(x.size());
-  op.perform_op(x.data(), y.data());
+  net.perform_op(x.data(), y.data());
   return x.dot(y) / x.squaredNorm();
 }
 
@@ -68,34 +64,40 @@ double rayleigh_quotient(const StepOperator& op, const Eigen::VectorXd& x) {
 
 double critical_time_step(const ParticleTable& p, const BondTable& b, double shear_ratio,
                           const Freedom& freedom, double damping, int threads) {
-  const auto damper = [&](std::size_t k) { return b.damping.empty() ? 0.0 : b.damping[k]; };
-  const StepOperator stiffness = step_operator(p, b, freedom, threads, [&](std::size_t k) {
+  const auto spring = [&](std::size_t k) {
     return SpringConstants{b.stiffness[k], shear_ratio * b.stiffness[k]};
-  });
-  const StepOperator dashpots = step_operator(p, b, freedom, threads, [&](std::size_t k) {
-    return SpringConstants{damper(k), 0.0};
-  });
-
+  };
+  const auto dashpot = [&](std::size_t k) {
+    return SpringConstants{b.damping.empty() ? 0.0 : b.damping[k], 0.0};
+  };
   const double limit = 1.0 / (1.0 + damping);
   const double proven = proven_time_step(p, b, shear_ratio, freedom, damping, threads);
+  // one network takes all constants in turn: it is the largest thing that a run ever holds beside its tables
+  ScaledNetwork net{elastic_network(p, b, freedom.rotation, threads, spring),
+                    roots_of_masses(p, freedom),
+                    {},
+                    Eigen::VectorXd(static_cast<Eigen::Index>(6 * p.size))};
   double dt = proven;
   Eigen::VectorXd mode;
   constexpr int turns = 6;
   for (int turn = 0; turn < turns; ++turn) {
-    StepOperator both = step_operator(p, b, freedom, threads, [&](std::size_t k) {
+    set_constants(net.network, [&](std::size_t k) {  // dt^2 K/4 + dt C/2
       const double stiff = 0.25 * dt * dt * b.stiffness[k];
-      return SpringConstants{stiff + 0.5 * dt * damper(k), shear_ratio * stiff};
+      return SpringConstants{stiff + 0.5 * dt * dashpot(k).normal, shear_ratio * stiff};
     });
-    Spectra::SymEigsSolver<StepOperator> solver(both, 1, std::min<Eigen::Index>(20, both.rows()));
+    Spectra::SymEigsSolver<ScaledNetwork> solver(net, 1, std::min<Eigen::Index>(8, net.rows()));
     if (mode.size() > 0)
       solver.init(mode.data());
     else
       solver.init();
-    solver.compute(Spectra::SortRule::LargestAlge, 100, 1e-3);
+    solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-3);
     if (solver.info() != Spectra::CompInfo::Successful) return proven;
     mode = solver.eigenvectors().col(0);
     // the step at which this mode would reach the limit; it falls to the answer as the mode settles
-    const double s = 0.25 * rayleigh_quotient(stiffness, mode), d = 0.5 * rayleigh_quotient(dashpots, mode);
+    set_constants(net.network, spring);
+    const double s = 0.25 * rayleigh_quotient(net, mode);
+    set_constants(net.network, dashpot);
+    const double d = 0.5 * rayleigh_quotient(net, mode);
     const double next = 2.0 * limit / (d + std::sqrt(d * d + 4.0 * s * limit));
     const bool settled = std::abs(next - dt) < 2e-3 * dt;
     dt = next;
