@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <iterator>
-#include <nlohmann/json.hpp>
 
+#include "io/machine_json.hpp"
 #include "io/published_times.hpp"
 #include "io/write_aside.hpp"
 
@@ -39,20 +39,6 @@ Json values_of(const ScalingRun& run, const std::vector<ScalingRun>& runs) {
   values["table_bytes_per_bond"] = table_bytes_per_bond(run);
   values["peak_rss_bytes"] = run.peak_bytes;
   return values;
-}
-
-Json of(const Machine& m) {
-  Json caches = Json::array();
-  for (const Cache& c : m.caches)
-    caches.push_back({{"level", c.level}, {"type", c.type}, {"bytes", c.bytes}, {"shared_by", c.shared_by}});
-  return {{"cpu", m.cpu},
-          {"cores", m.cores},
-          {"cores_online", m.cores_online},
-          {"caches", caches},
-          {"memory_bytes", m.memory_bytes},
-          {"load_average", m.load_average},
-          {"compiler", m.compiler},
-          {"instruction_set", m.instruction_set}};
 }
 
 Json test_of(const ScalingResults& r) {
@@ -107,7 +93,7 @@ void write_scaling_json(const std::filesystem::path& file, const ScalingResults&
   for (const PublishedTimes& p : published_times()) published.push_back(of(p));
   const Json all{{"study", "scaling"},
                  {"version", results.machine.version},
-                 {"machine", of(results.machine)},
+                 {"machine", json_of(results.machine)},
                  {"test", test_of(results)},
                  {"runs", runs},
                  {"published", published}};
