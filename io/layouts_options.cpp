@@ -4,26 +4,13 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <string>
 
 #include "io/command_line.hpp"
+#include "io/study_options.hpp"
 
 namespace breccia {
 namespace {
-
-template <class T>
-void sort_unique(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-std::vector<int> one_to(int cores) {
-  std::vector<int> threads;
-  for (int n = 1; n < cores; n *= 2) threads.push_back(n);
-  threads.push_back(cores);
-  return threads;
-}
 
 const std::string about =
     "The same bonds, stored and summed in other ways: what each costs, and how far it is from what the "
@@ -49,7 +36,7 @@ Exit code 1: a layout differs from production by more than 1e-9.)";
 
 std::optional<int> read_layouts_options(int argc, char** argv, LayoutsOptions& o) {
   CLI::App app(about, "breccia-layouts");
-  o.threads = one_to(available_cores());
+  o.threads = doubling(available_cores());
   // lists are one word with commas, so that what follows is not taken for their next value
   const auto list = [&](const std::string& name, auto& values, const std::string& meaning) {
     return app.add_option(name, values, meaning)

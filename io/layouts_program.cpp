@@ -2,22 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "io/case_material.hpp"
 #include "io/command_line.hpp"
 #include "io/layouts_options.hpp"
 #include "io/layouts_results.hpp"
 #include "io/progress.hpp"
 #include "io/run_folder.hpp"
+#include "io/study_options.hpp"
 
 namespace breccia {
 namespace {
-
-/// A preset as it is shipped: one of the same name in the folder where the user is does not count.
-Material preset(const std::string& name) {
-  MaterialLayers layers;
-  layers.preset = read_preset(name, "breccia-layouts", BRECCIA_DATA_DIR).layer;
-  return make_material(material_base(layers), {}, Elasticity::paper, name);
-}
 
 LayoutScene packed(std::size_t spheres, const Material& material, int threads, Progress& progress) {
   const std::string title = fmt::format("packing {} spheres", spheres);
@@ -34,7 +27,7 @@ LayoutScene packed(std::size_t spheres, const Material& material, int threads, P
 /// @returns whether every layout computes what production does
 bool run_study(const LayoutsOptions& options) {
   LayoutsResults results{describe_machine(), "concrete", options.timing, operations_per_bond(), {}};
-  const Material material = preset(results.material);
+  const Material material = shipped_material(results.material, "breccia-layouts");
   claim_run_folder(options.out, options.force);
   Progress progress = make_progress(options.quiet);
   say(progress, layouts_heading(results));

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
-#include "io/machine_json.hpp"
+#include "io/study_json.hpp"
 #include "io/write_aside.hpp"
 
 namespace breccia {
@@ -55,21 +53,10 @@ Json of(const OperationCount& n) {
 }  // namespace
 
 void write_layouts_csv(const std::filesystem::path& file, const LayoutsResults& results) {
-  std::string text;
+  std::vector<Json> rows;
   for (const LayoutsGroup& group : results.groups)
-    for (const LayoutResult& r : group.results) {
-      const Json values = values_of(group, r);
-      std::string names, line;
-      for (const auto& [name, value] : values.items()) {
-        const std::string_view comma = line.empty() ? "" : ",";
-        fmt::format_to(std::back_inserter(names), "{}{}", comma, name);
-        fmt::format_to(std::back_inserter(line), "{}{}", comma,
-                       value.is_string() ? value.get<std::string>() : value.dump());
-      }
-      if (text.empty()) text = names + '\n';
-      text += line + '\n';
-    }
-  write_aside(file, text);
+    for (const LayoutResult& r : group.results) rows.push_back(values_of(group, r));
+  write_aside(file, csv_of(rows));
 }
 
 void write_layouts_json(const std::filesystem::path& file, const LayoutsResults& results) {

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
-#include "io/machine_json.hpp"
 #include "io/published_times.hpp"
+#include "io/study_json.hpp"
 #include "io/write_aside.hpp"
 
 namespace breccia {
@@ -62,20 +60,9 @@ Json of(const PublishedTimes& p) {
 }  // namespace
 
 void write_scaling_csv(const std::filesystem::path& file, const ScalingResults& results) {
-  std::string text;
-  for (const ScalingRun& run : results.runs) {
-    const Json values = values_of(run, results.runs);
-    std::string names, line;
-    for (const auto& [name, value] : values.items()) {
-      const std::string_view comma = line.empty() ? "" : ",";
-      fmt::format_to(std::back_inserter(names), "{}{}", comma, name);
-      fmt::format_to(std::back_inserter(line), "{}{}", comma,
-                     value.is_string() ? value.get<std::string>() : value.dump());
-    }
-    if (text.empty()) text = names + '\n';
-    text += line + '\n';
-  }
-  write_aside(file, text);
+  std::vector<Json> rows;
+  for (const ScalingRun& run : results.runs) rows.push_back(values_of(run, results.runs));
+  write_aside(file, csv_of(rows));
 }
 
 void write_scaling_json(const std::filesystem::path& file, const ScalingResults& results) {
