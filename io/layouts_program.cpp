@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "io/command_line.hpp"
 #include "io/layouts_options.hpp"
 #include "io/layouts_results.hpp"
