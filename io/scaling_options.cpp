@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "io/command_line.hpp"
 #include "io/nearest.hpp"
+#include "io/study_options.hpp"
 
 namespace breccia {
 namespace {
@@ -65,12 +66,6 @@ std::string check_rows(const std::string& text) {
   return fmt::format("{} is not a multiple of {}; nearest: {}", steps, row, nearest);
 }
 
-template <class T>
-void sort_unique(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 const std::string about =
     "How the time of a step changes with the number of threads: uniaxial compression of a packed concrete "
     "cylinder\nwith the whole Dempack law, measured in blocks of steps, beside the run times that its "
@@ -91,13 +86,6 @@ DIR/scaling.json  the same with every block, the machine, and the published time
 
 std::string_view name_of(ScalingStudy study) { return word_for(studies, study); }
 std::string_view name_of(ScatterKind scatter) { return word_for(scatters, scatter); }
-
-std::vector<int> doubling(int cores) {
-  std::vector<int> threads;
-  for (int n = 1; n < cores; n *= 2) threads.push_back(n);
-  threads.push_back(cores);
-  return threads;
-}
 
 std::optional<int> read_scaling_options(int argc, char** argv, ScalingOptions& o) {
   CLI::App app(about, "breccia-scaling");

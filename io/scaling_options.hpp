@@ -20,9 +20,6 @@ struct ScalingOptions {
   bool force = false, quiet = false;
 };
 
-/// 1, 2, 4, ... below `cores`, and `cores`.
-std::vector<int> doubling(int cores);
-
 /// @param options  filled with what the command line says
 /// @returns nothing when the study is to run; else the exit code
 std::optional<int> read_scaling_options(int argc, char** argv, ScalingOptions& options);

@@ -2,21 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "io/case_material.hpp"
 #include "io/command_line.hpp"
 #include "io/progress.hpp"
 #include "io/run_folder.hpp"
 #include "io/scaling_results.hpp"
+#include "io/study_options.hpp"
 
 namespace breccia {
 namespace {
-
-/// A preset as it is shipped: one of the same name in the folder where the user is does not count.
-Material preset(const std::string& name) {
-  MaterialLayers layers;
-  layers.preset = read_preset(name, "breccia-scaling", BRECCIA_DATA_DIR).layer;
-  return make_material(material_base(layers), {}, Elasticity::paper, name);
-}
 
 std::string heading(const ScalingOptions& o, const ScalingResults& r) {
   const Machine& m = r.machine;
@@ -36,7 +29,7 @@ std::string heading(const ScalingOptions& o, const ScalingResults& r) {
 void run_study(const ScalingOptions& options) {
   const std::vector<ScalingPoint> points = scaling_points(options);
   ScalingResults results{describe_machine(), options.blocks, "concrete", {}};
-  const Material material = preset(results.material);
+  const Material material = shipped_material(results.material, "breccia-scaling");
   claim_run_folder(options.out, options.force);
   Progress progress = make_progress(options.quiet);
   say(progress, heading(options, results));

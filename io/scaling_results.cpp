@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-#include <nlohmann/json.hpp>
-
 #include "io/published_times.hpp"
+#include "io/study_json.hpp"
 #include "io/write_aside.hpp"
 
 namespace breccia {
@@ -41,20 +39,6 @@ Json values_of(const ScalingRun& run, const std::vector<ScalingRun>& runs) {
   return values;
 }
 
-Json of(const Machine& m) {
-  Json caches = Json::array();
-  for (const Cache& c : m.caches)
-    caches.push_back({{"level", c.level}, {"type", c.type}, {"bytes", c.bytes}, {"shared_by", c.shared_by}});
-  return {{"cpu", m.cpu},
-          {"cores", m.cores},
-          {"cores_online", m.cores_online},
-          {"caches", caches},
-          {"memory_bytes", m.memory_bytes},
-          {"load_average", m.load_average},
-          {"compiler", m.compiler},
-          {"instruction_set", m.instruction_set}};
-}
-
 Json test_of(const ScalingResults& r) {
   return {{"test", "ucs"},
           {"material", r.material},
@@ -76,20 +60,9 @@ Json of(const PublishedTimes& p) {
 }  // namespace
 
 void write_scaling_csv(const std::filesystem::path& file, const ScalingResults& results) {
-  std::string text;
-  for (const ScalingRun& run : results.runs) {
-    const Json values = values_of(run, results.runs);
-    std::string names, line;
-    for (const auto& [name, value] : values.items()) {
-      const std::string_view comma = line.empty() ? "" : ",";
-      fmt::format_to(std::back_inserter(names), "{}{}", comma, name);
-      fmt::format_to(std::back_inserter(line), "{}{}", comma,
-                     value.is_string() ? value.get<std::string>() : value.dump());
-    }
-    if (text.empty()) text = names + '\n';
-    text += line + '\n';
-  }
-  write_aside(file, text);
+  std::vector<Json> rows;
+  for (const ScalingRun& run : results.runs) rows.push_back(values_of(run, results.runs));
+  write_aside(file, csv_of(rows));
 }
 
 void write_scaling_json(const std::filesystem::path& file, const ScalingResults& results) {
@@ -107,7 +80,7 @@ void write_scaling_json(const std::filesystem::path& file, const ScalingResults&
   for (const PublishedTimes& p : published_times()) published.push_back(of(p));
   const Json all{{"study", "scaling"},
                  {"version", results.machine.version},
-                 {"machine", of(results.machine)},
+                 {"machine", json_of(results.machine)},
                  {"test", test_of(results)},
                  {"runs", runs},
                  {"published", published}};

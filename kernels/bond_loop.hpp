@@ -7,6 +7,7 @@
 #pragma once
 #include <algorithm>
 
+#include "kernels/bond_column.hpp"
 #include "kernels/bond_force.hpp"
 #include "kernels/bond_pass.hpp"
 #include "kernels/lane_rows.hpp"
@@ -19,21 +20,7 @@ inline constexpr std::size_t ahead = 32;  // bonds, some 400 ns
 inline constexpr std::size_t stride = sizeof(BondLoad) / sizeof(Vec3);
 static_assert(bond_batch % width == 0 && LoadBlock::capacity % bond_batch == 0);
 
-/// What the loop reads and writes of a bond.
-enum class Column {
-  arm_offset,
-  area,
-  strength_area,
-  stiffness,
-  damping,
-  rest_length,
-  shear_x,
-  shear_y,
-  shear_z,
-  plastic_stretch,
-  damage_normal,
-  damage_shear
-};
+using Column = BondColumn;
 
 /// Rows of the particles.
 struct ParticleRows {

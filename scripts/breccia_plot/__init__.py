@@ -4,6 +4,7 @@ from .curves import draw_curves
 from .energy import draw_energy
 from .envelope import draw_envelope
 from .errors import BadInput, CannotDraw, FileTrouble
+from .layouts import draw_layouts
 from .scaling import draw_scaling
 from .series import read_series
 from .specimen import draw_specimen
@@ -14,3 +15,4 @@ PICTURES = {
     "specimen.png": draw_specimen,
     "energy.png": draw_energy,
 }
+STUDIES = {"scaling": draw_scaling, "layouts": draw_layouts}

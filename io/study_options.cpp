@@ -1,0 +1,20 @@
+#include "io/study_options.hpp"
+
+#include "io/case_material.hpp"
+
+namespace breccia {
+
+std::vector<int> doubling(int cores) {
+  std::vector<int> threads;
+  for (int n = 1; n < cores; n *= 2) threads.push_back(n);
+  threads.push_back(cores);
+  return threads;
+}
+
+Material shipped_material(const std::string& name, const std::string& program) {
+  MaterialLayers layers;
+  layers.preset = read_preset(name, program, BRECCIA_DATA_DIR).layer;
+  return make_material(material_base(layers), {}, Elasticity::paper, name);
+}
+
+}  // namespace breccia

@@ -1,0 +1,24 @@
+// What the command lines of the studies have in common.
+#pragma once
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "kernels/material.hpp"
+
+namespace breccia {
+
+/// 1, 2, 4, ... below `cores`, and `cores`.
+std::vector<int> doubling(int cores);
+
+template <class T>
+void sort_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// A preset as it is shipped: one of the same name in the folder where the user is does not count.
+/// @param program  its whole name, for messages
+Material shipped_material(const std::string& name, const std::string& program);
+
+}  // namespace breccia
