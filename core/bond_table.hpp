@@ -6,7 +6,7 @@
 
 #include "core/column.hpp"
 #include "core/table.hpp"
-#include "kernels/bond.hpp"
+#include "kernels/bond_pass.hpp"
 
 namespace breccia {
 
@@ -38,6 +38,14 @@ struct BondTable {
 /// The areas that strengths stand on.
 inline const std::vector<double>& strength_areas(const BondTable& bonds) {
   return bonds.strength_area.empty() ? bonds.area : bonds.strength_area;
+}
+
+/// The columns as the pass over bonds takes them.
+inline BondConstantColumns<double> constant_columns(const BondTable& b) {
+  return {b.arm_offset, b.area, strength_areas(b), b.stiffness, b.damping};
+}
+inline BondHistoryColumns<double> history_columns(BondTable& b) {
+  return {b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear};
 }
 
 /// What bond `k` is, as a law takes it; without its dashpot, which stores no energy.

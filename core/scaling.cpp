@@ -114,12 +114,10 @@ ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& mate
   return run;
 }
 
-StepTime step_time(const ScalingRun& run) {
-  std::vector<double> sorted = run.seconds;
-  std::sort(sorted.begin(), sorted.end());
-  const std::size_t n = sorted.size();
-  const auto steps = static_cast<double>(run.steps);
-  return {0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]) / steps, sorted.front() / steps, sorted.back() / steps};
+Spread step_time(const ScalingRun& run) {
+  std::vector<double> of_a_step = run.seconds;
+  for (double& seconds : of_a_step) seconds /= static_cast<double>(run.steps);
+  return spread_of(std::move(of_a_step));
 }
 
 double bond_updates(const ScalingRun& run) { return static_cast<double>(run.bonds) / step_time(run).median; }

@@ -7,6 +7,7 @@
 
 #include "core/area_factor.hpp"
 #include "core/curve.hpp"
+#include "core/spread.hpp"
 #include "core/world.hpp"
 
 namespace breccia {
@@ -76,10 +77,7 @@ ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& mate
                            const ScalingProgress& progress = {});
 
 /// s, over the blocks.
-struct StepTime {
-  double median = 0, least = 0, most = 0;
-};
-StepTime step_time(const ScalingRun& run);
+Spread step_time(const ScalingRun& run);
 
 /// Bonds times steps per second, by the median.
 double bond_updates(const ScalingRun& run);

@@ -110,15 +110,11 @@ BondPassIn bond_pass_in(const World& w) {
           b.row_lo,
           b.row_hi,
           b.rest_length,
-          {b.arm_offset, b.area, strength_areas(b), b.stiffness, b.damping},
+          constant_columns(b),
           w.narrow_bonds.constants()};
 }
 
-BondPassHistory bond_pass_history(World& w) {
-  BondTable& b = w.bonds;
-  return {{b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear},
-          w.narrow_bonds.history()};
-}
+BondPassHistory bond_pass_history(World& w) { return {history_columns(w.bonds), w.narrow_bonds.history()}; }
 
 void settle(World& w) { widen_history(w.narrow_bonds, 0, w.bonds.padded, w.bonds); }
 

@@ -56,10 +56,7 @@ std::optional<int> read_layouts_options(int argc, char** argv, LayoutsOptions& o
                  fmt::format("seconds that a block takes, about [{}]", o.timing.block_seconds))
       ->type_name("S")
       ->check(CLI::Range(1e-4, 60.0, "0.0001 to 60"));
-  app.add_option("--out", o.out, fmt::format("folder for the results [{}]", o.out.string()))
-      ->type_name("DIR");
-  app.add_flag("--force", o.force, "replace results that are there");
-  app.add_flag("--quiet", o.quiet, "errors only");
+  add_results_options(app, o.out, o.force, o.quiet);
   app.footer(results);
   if (const auto code = read_command_line(app, argc, argv)) return code;
   sort_unique(o.spheres);

@@ -37,8 +37,8 @@ std::string format_layouts_group(const LayoutsGroup& group, const OperationCount
   add("particles", "", [](const auto& r) { return std::string(name_of(r.layout.particles)); });
   add("sums", "", [](const auto& r) { return std::string(name_of(r.layout.sums)); });
   add("median", "ns/bond", [](const auto& r) { return four_digits(r.median()); });
-  add("least", "ns/bond", [](const auto& r) { return four_digits(r.least()); });
-  add("most", "ns/bond", [](const auto& r) { return four_digits(r.most()); });
+  add("least", "ns/bond", [](const auto& r) { return four_digits(r.spread().least); });
+  add("most", "ns/bond", [](const auto& r) { return four_digits(r.spread().most); });
   add("rate", "Mbond/s", [](const auto& r) { return fmt::format("{:.1f}", 1e-6 * r.bonds_per_second()); });
   add("time", "production",
       [&](const auto& r) { return fmt::format("{:.2f}", r.median() / first.median()); });

@@ -126,10 +126,7 @@ std::optional<int> read_scaling_options(int argc, char** argv, ScalingOptions& o
                              ScalingBlocks::steps_per_row, o.blocks.warm_up))
       ->type_name("N")
       ->check(check_rows);
-  app.add_option("--out", o.out, fmt::format("folder for the results [{}]", o.out.string()))
-      ->type_name("DIR");
-  app.add_flag("--force", o.force, "replace results that are there");
-  app.add_flag("--quiet", o.quiet, "errors only");
+  add_results_options(app, o.out, o.force, o.quiet);
   app.footer(results);
   if (const auto code = read_command_line(app, argc, argv)) return code;
 

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 /// What a run comes to: names and values, the same in both files. Shares are of the wall time of the blocks.
 Json values_of(const ScalingRun& run, const std::vector<ScalingRun>& runs) {
-  const StepTime t = step_time(run);
+  const Spread t = step_time(run);
   const ScalingGain gain = gain_of(run, runs);
   Json values{{"study", name_of(run.point.study)},
               {"scatter", name_of(run.point.scatter)},

@@ -1,10 +1,15 @@
 // What the command lines of the studies have in common.
 #pragma once
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "kernels/material.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace breccia {
 
@@ -16,6 +21,9 @@ void sort_unique(std::vector<T>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
+
+/// --out, --force and --quiet.
+void add_results_options(CLI::App& app, std::filesystem::path& out, bool& force, bool& quiet);
 
 /// A preset as it is shipped: one of the same name in the folder where the user is does not count.
 /// @param program  its whole name, for messages

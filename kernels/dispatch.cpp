@@ -42,15 +42,8 @@ InstructionSet best_instruction_set() {
 }
 
 IntegrateFree integrate_free_for(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::x86_64:
-      return x86_64::integrate_free;
-    case InstructionSet::x86_64_v3:
-      return x86_64_v3::integrate_free;
-    case InstructionSet::x86_64_v4:
-      return x86_64_v4::integrate_free;
-  }
-  throw std::invalid_argument("no such instruction set");
+  return built_for<IntegrateFree>(set, x86_64::integrate_free, x86_64_v3::integrate_free,
+                                  x86_64_v4::integrate_free);
 }
 
 Features built_features(const BondLaw& law, const Features& asked, Precision precision) {
@@ -61,39 +54,14 @@ Features built_features(const BondLaw& law, const Features& asked, Precision pre
   throw std::invalid_argument("no bond kernel of this law covers the scene's features");
 }
 
-namespace {
-
-BondPass mixed_pass_for(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::x86_64:
-      return x86_64::mixed;
-    case InstructionSet::x86_64_v3:
-      return x86_64_v3::mixed;
-    case InstructionSet::x86_64_v4:
-      return x86_64_v4::mixed;
-  }
-  throw std::invalid_argument("no such instruction set");
-}
-
-}  // namespace
-
 BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set, Precision precision) {
   for (std::size_t k = 0; k < kernel_list.size(); ++k) {
     if (kernel_list[k].law != law.index() || !(kernel_list[k].features == built)) continue;
-    if (precision == Precision::mixed) {
-      if (k != mixed_kernel) break;
-      return mixed_pass_for(set);
-    }
-    switch (set) {
-      case InstructionSet::x86_64:
-        return x86_64::passes[k];
-      case InstructionSet::x86_64_v3:
-        return x86_64_v3::passes[k];
-      case InstructionSet::x86_64_v4:
-        return x86_64_v4::passes[k];
-    }
+    if (precision == Precision::full)
+      return built_for(set, x86_64::passes, x86_64_v3::passes, x86_64_v4::passes)[k];
+    if (k == mixed_kernel) return built_for(set, x86_64::mixed, x86_64_v3::mixed, x86_64_v4::mixed);
   }
-  throw std::invalid_argument("no bond kernel is built for these features");
+  throw std::invalid_argument("no bond kernel is built for these features in this precision");
 }
 
 }  // namespace breccia

@@ -154,6 +154,14 @@ inline reference::World to_reference(const World& w, const reference::Parameters
   return r;
 }
 
+/// Instruction sets that this processor runs.
+inline std::vector<InstructionSet> sets_of_this_machine() {
+  std::vector<InstructionSet> sets;
+  for (int k = 0; k <= static_cast<int>(best_instruction_set()); ++k)
+    sets.push_back(static_cast<InstructionSet>(k));
+  return sets;
+}
+
 /// Speeds of the lower and the upper platen along z, m/s.
 inline void drive(World& w, double lower, double upper) {
   w.platens.velocity = {Vec3{0, 0, lower}, Vec3{0, 0, upper}};

@@ -65,15 +65,6 @@ LayoutScene make_layout_scene(std::size_t spheres, const Material& material, int
   return scene;
 }
 
-double LayoutResult::median() const {
-  std::vector<double> sorted = block_ns;
-  std::sort(sorted.begin(), sorted.end());
-  const std::size_t half = sorted.size() / 2;
-  return sorted.size() % 2 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
-}
-double LayoutResult::least() const { return *std::min_element(block_ns.begin(), block_ns.end()); }
-double LayoutResult::most() const { return *std::max_element(block_ns.begin(), block_ns.end()); }
-
 std::vector<LayoutResult> study_layouts(const LayoutScene& scene, int threads, const LayoutTiming& timing) {
   const World& w = scene.world;
   const double bonds = static_cast<double>(w.bonds.size);

@@ -7,6 +7,7 @@
 #include "core/layouts/layout_run.hpp"
 #include "core/layouts/operation_count.hpp"
 #include "core/layouts/roofline.hpp"
+#include "core/spread.hpp"
 
 namespace breccia {
 
@@ -37,9 +38,8 @@ struct LayoutResult {
   MachinePeak peak;
   PassLimit limit;
 
-  double median() const;  ///< ns per bond
-  double least() const;
-  double most() const;
+  Spread spread() const { return spread_of(block_ns); }  ///< ns per bond
+  double median() const { return spread().median; }
   double bonds_per_second() const { return 1e9 / median(); }
   double fraction_of_limit() const { return 1e9 * limit.time() / median(); }
 };

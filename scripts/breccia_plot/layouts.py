@@ -1,11 +1,9 @@
 """Time of the bond pass by layout, over the size of the specimen, beside the limit that the machine sets."""
-import json
-
 import numpy as np
 from matplotlib.lines import Line2D
 
-from .errors import BadInput
 from .style import DISSIPATED, INK, KINETIC, SHEAR, SOFT, STORED, TENSION, new_figure, save
+from .study import read_study
 
 COLOURS = (SHEAR, STORED, DISSIPATED, TENSION, KINETIC, INK, "#56B4E9")  # of the number of spheres
 MARKERS = "osD^vP*"
@@ -18,19 +16,10 @@ class Layouts:
     """What breccia-layouts left in a folder."""
 
     def __init__(self, folder):
-        path = folder / "layouts.json"
-        try:
-            content = json.loads(path.read_text(encoding="utf-8"))
-            self.runs, machine = content["runs"], content["machine"]
-            self.title = (f"Bond pass by layout – {machine['cpu']}, {machine['cores']} core{'s' * (machine['cores'] > 1)}, "
-                          f"{machine['instruction_set']}")
-            missing = sorted({name for run in self.runs for name in NEEDED - run.keys()})
-        except (OSError, ValueError, KeyError, TypeError, AttributeError) as reason:
-            raise BadInput(f"{path} cannot be read as a layout study: {reason}") from reason
-        if not self.runs:
-            raise BadInput(f"{path} holds no run")
-        if missing:
-            raise BadInput(f"{path} was not written by breccia: a run lacks {missing[0]}")
+        content, self.title = read_study(
+            folder / "layouts.json", "layout", NEEDED,
+            lambda study, machine: f"Bond pass by layout – {machine}, {study['machine']['instruction_set']}")
+        self.runs = content["runs"]
         self.layouts = list(dict.fromkeys(layout_of(run) for run in self.runs))
         self.sizes = sorted({run["spheres"] for run in self.runs})
         self.threads = sorted({run["threads"] for run in self.runs})

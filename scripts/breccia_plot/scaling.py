@@ -1,12 +1,11 @@
 """Time of a step, speed-up and efficiency over threads, beside the published times that scaling.json holds."""
-import json
 from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from .errors import BadInput
 from .style import DISSIPATED, INK, KINETIC, SHEAR, SOFT, STORED, TENSION, new_figure, place_labels, save
+from .study import read_study
 
 COLOURS = (SHEAR, TENSION, STORED, KINETIC, DISSIPATED)  # of the number of spheres
 MARKERS = {"private": "o", "gather": "s", "atomic": "^"}
@@ -30,20 +29,11 @@ class Scaling:
     """What breccia-scaling left in a folder."""
 
     def __init__(self, folder):
-        path = folder / "scaling.json"
-        try:
-            content = json.loads(path.read_text(encoding="utf-8"))
-            self.runs, self.published = content["runs"], content["published"]
-            cpu, cores = content["machine"]["cpu"], content["machine"]["cores"]
-            self.title = (f"Scaling of the uniaxial compression of {content['test']['material']} – {cpu}, "
-                          f"{cores} core{'s' * (cores > 1)}")
-            missing = sorted({name for run in self.runs for name in NEEDED - run.keys()})
-        except (OSError, ValueError, KeyError, TypeError, AttributeError) as reason:
-            raise BadInput(f"{path} cannot be read as a scaling study: {reason}") from reason
-        if not self.runs:
-            raise BadInput(f"{path} holds no run")
-        if missing:
-            raise BadInput(f"{path} was not written by breccia: a run lacks {missing[0]}")
+        content, self.title = read_study(
+            folder / "scaling.json", "scaling", NEEDED,
+            lambda study, machine: f"Scaling of the uniaxial compression of {study['test']['material']} – {machine}",
+            parts=("published",))
+        self.runs, self.published = content["runs"], content["published"]
 
     def lines(self, study):
         """Of one study: runs of the same scatter and, in strong scaling, the same specimen are a line."""

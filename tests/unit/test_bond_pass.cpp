@@ -13,13 +13,6 @@ namespace ref = breccia::reference;
 
 namespace {
 
-std::vector<InstructionSet> sets_of_this_machine() {
-  std::vector<InstructionSet> sets;
-  for (int k = 0; k <= static_cast<int>(best_instruction_set()); ++k)
-    sets.push_back(static_cast<InstructionSet>(k));
-  return sets;
-}
-
 /// Bonds in all states between particles that move and spin.
 struct Bundle {
   ref::Parameters parameters;
@@ -128,19 +121,17 @@ Loads pass(Bundle& s, const Features& features, InstructionSet set) {
   to.mode = ScatterMode::column;
   to.bond_load = c.load;
   const BondLaw law = scene::law(s.parameters);
-  bond_pass_for(law, features, set)(
-      {s.dt,
-       constants_of(law),
-       p.position,
-       p.velocity,
-       p.spin,
-       b.row_lo,
-       b.row_hi,
-       b.rest_length,
-       {b.arm_offset, b.area, b.area, b.stiffness, b.damping},
-       {}},
-      {{b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear}, {}}, 0,
-      b.padded, to, nullptr);
+  bond_pass_for(law, features, set)({s.dt,
+                                     constants_of(law),
+                                     p.position,
+                                     p.velocity,
+                                     p.spin,
+                                     b.row_lo,
+                                     b.row_hi,
+                                     b.rest_length,
+                                     constant_columns(b),
+                                     {}},
+                                    {history_columns(b), {}}, 0, b.padded, to, nullptr);
   return c;
 }
 
@@ -167,7 +158,7 @@ TEST_CASE(
     "bond pass: all feature sets and instruction sets as the reference's pair update [random pairs, rel "
     "1e-11]") {
   for (const Kernel& kernel : kernels())
-    for (const InstructionSet set : sets_of_this_machine()) {
+    for (const InstructionSet set : scene::sets_of_this_machine()) {
       const Features& features = kernel.features;
       Bundle s = random_bundle(kernel, 7);
       double force = 0, moment = 0, history = 0;
@@ -222,7 +213,7 @@ TEST_CASE(
     "bond pass: swapping the two ends of the input changes no bit of force, torque and history [STYLE 9, "
     "equal]") {
   for (const Kernel& kernel : kernels())
-    for (const InstructionSet set : sets_of_this_machine()) {
+    for (const InstructionSet set : scene::sets_of_this_machine()) {
       const Features& features = kernel.features;
       Bundle a = random_bundle(kernel, 21), b = random_bundle(kernel, 21);
       swap_ends(b);
@@ -239,7 +230,7 @@ TEST_CASE(
 
 TEST_CASE("bond pass: a bond's result does not depend on its place and neighbours in the batch [equal]") {
   for (const Kernel& kernel : kernels())
-    for (const InstructionSet set : sets_of_this_machine()) {
+    for (const InstructionSet set : scene::sets_of_this_machine()) {
       const Features& features = kernel.features;
       Bundle a = random_bundle(kernel, 33), b = a;
       std::vector<std::size_t> from(a.bonds.size);

@@ -15,13 +15,6 @@ namespace ref = breccia::reference;
 
 namespace {
 
-std::vector<InstructionSet> sets_of_this_machine() {
-  std::vector<InstructionSet> sets;
-  for (int k = 0; k <= static_cast<int>(best_instruction_set()); ++k)
-    sets.push_back(static_cast<InstructionSet>(k));
-  return sets;
-}
-
 /// A small cylinder, crushed until bonds have yielded and broken and others are about to.
 World crushed(InstructionSet set) {
   ref::Parameters p;
@@ -63,7 +56,7 @@ PassResult production(World w, int passes) {
 }  // namespace
 
 TEST_CASE("layouts: all give production's forces and history on a crushed cylinder [rel 1e-12]") {
-  for (const InstructionSet set : sets_of_this_machine()) {
+  for (const InstructionSet set : scene::sets_of_this_machine()) {
     const World w = crushed(set);
     const PassResult before = production(w, 0), wanted = production(w, 4);
     REQUIRE(count_broken(w).tension > 20);
@@ -205,14 +198,14 @@ TEST_CASE("layouts: the limit is the longer of memory and arithmetic") {
   CHECK(r.median() == doctest::Approx(27.5));
   r.block_ns.push_back(20);
   CHECK(r.median() == 25);
-  CHECK(r.least() == 20);
-  CHECK(r.most() == 50);
+  CHECK(r.spread().least == 20);
+  CHECK(r.spread().most == 50);
   CHECK(r.bonds_per_second() == doctest::Approx(40e6));
   CHECK(r.fraction_of_limit() == doctest::Approx(0.4));
 }
 
 TEST_CASE("layouts: rates of the machine come from work that was done") {
-  for (const InstructionSet set : sets_of_this_machine()) {
+  for (const InstructionSet set : scene::sets_of_this_machine()) {
     const MachineRates& rates = machine_rates(set);
     const std::vector<double> a(19, 1.0), b(19, 2.0), c(19, 3.0);
     std::vector<double> d(19, 10.0);

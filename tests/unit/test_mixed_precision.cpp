@@ -39,9 +39,7 @@ double apart(const World& a, const World& b) {
 }  // namespace
 
 TEST_CASE("mixed precision: intact bonds move particles as in full precision to a float's round-off [1e-6]") {
-  for (const InstructionSet set :
-       {InstructionSet::x86_64, InstructionSet::x86_64_v3, InstructionSet::x86_64_v4}) {
-    if (set > best_instruction_set()) continue;
+  for (const InstructionSet set : scene::sets_of_this_machine()) {
     const World full = crushed(Precision::full, 200, 0.05, set),
                 mixed = crushed(Precision::mixed, 200, 0.05, set);
     REQUIRE(count_broken(full).tension + count_broken(full).shear == 0);
