@@ -12,6 +12,8 @@ std::string_view name_of(Role role) {
       return "history";
     case Role::state:
       return "state";
+    case Role::ledger:
+      return "ledger";
     case Role::derived:
       return "derived";
     case Role::scratch:
@@ -34,6 +36,8 @@ std::string_view name_of(Need need) {
       return "breakage";
     case Need::strength_area:
       return "strength area of its own";
+    case Need::ledger:
+      return "energy ledger";
     case Need::stress:
       return "stress output";
   }

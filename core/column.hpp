@@ -13,11 +13,12 @@ using Gid = std::uint64_t;  ///< global id of a particle, as in the specimen's f
 using Row = std::uint32_t;  ///< row of a table on this rank
 
 /// What a column is for. Identity, reference, history and state are saved and sent; derived is worked out for
-/// output; scratch is neither.
-enum class Role { identity, reference, history, state, derived, scratch };
+/// output; scratch is neither. A ledger column is saved and sent too, but no part of the state: nothing moves
+/// otherwise for it.
+enum class Role { identity, reference, history, state, ledger, derived, scratch };
 
 /// The feature of the scene without which a column has no storage.
-enum class Need { always, rotation, contact_damping, plasticity, breakage, strength_area, stress };
+enum class Need { always, rotation, contact_damping, plasticity, breakage, strength_area, ledger, stress };
 
 struct ColumnInfo {
   std::string_view type, name, unit;

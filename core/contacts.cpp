@@ -88,7 +88,7 @@ bool search_is_due(ContactSearch& s, const ParticleTable& p, std::uint64_t step,
 }
 
 void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTable& p,
-                    const ContactMaterial& material, const Features& features, int threads) {
+                    const ContactMaterial& material, const Features& features, bool ledger, int threads) {
   using std::numbers::pi;
   const bool first_list = !s.awake;
   s.awake = true;
@@ -104,13 +104,15 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
   std::vector<std::pair<std::pair<Row, Row>, std::size_t>> known;  // pairs with a history worth keeping
   for (std::size_t k = 0; k < before.size; ++k) {
     const double touch = p.radius[before.row_lo[k]] + p.radius[before.row_hi[k]];
-    if (before.free_length[k] != touch || !(before.shear_force[k] == Vec3{}))
+    if (before.free_length[k] != touch || !(before.shear_force[k] == Vec3{}) ||
+        (ledger && before.viscous_force[k] != 0.0))
       known.push_back({std::minmax(before.row_lo[k], before.row_hi[k]), k});
   }
   std::sort(known.begin(), known.end());
 
   contacts = ContactTable{};
   contacts.resize(pairs.size(), features);
+  if (ledger) contacts.viscous_force.assign(contacts.padded, 0.0);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [lo, hi] = p.gid[pairs[k].a] < p.gid[pairs[k].b] ? std::pair(pairs[k].a, pairs[k].b)
                                                                 : std::pair(pairs[k].b, pairs[k].a);
@@ -134,6 +136,7 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
     if (found != known.end() && found->first == key) {
       contacts.free_length[k] = before.free_length[found->second];
       contacts.shear_force[k] = before.shear_force[found->second];
+      if (ledger) contacts.viscous_force[k] = before.viscous_force[found->second];
     }
   }
 }

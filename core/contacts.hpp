@@ -39,7 +39,8 @@ struct ContactMaterial {
 };
 
 /// Makes the list of candidates anew; pairs that were in contact keep their history.
+/// @param ledger  with the columns that an energy ledger needs
 void renew_contacts(ContactSearch& search, ContactTable& contacts, const ParticleTable& particles,
-                    const ContactMaterial& material, const Features& features, int threads);
+                    const ContactMaterial& material, const Features& features, bool ledger, int threads);
 
 }  // namespace breccia

@@ -89,7 +89,15 @@ CurveRow state_row(World& w) {
   row.broken_tension = static_cast<double>(broken.tension);
   row.broken_shear = static_cast<double>(broken.shear);
   row.kinetic_J = kinetic_energy(w);
-  row.stored_J = stored_energy(w);
+  if (w.ledger.enabled) {
+    const EnergyBalance energies = balance(w);
+    note_balance(w.ledger, energies);
+    row.stored_J = energies.stored;
+    row.dissipated_J = energies.dissipated();
+    row.work_J = energies.work;
+  } else {
+    row.stored_J = stored_energy(w);
+  }
   row.confining_stress_Pa = w.confinement.pressure;
   return row;
 }

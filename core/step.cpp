@@ -13,10 +13,12 @@ void search_if_due(World& w) {
   const Lap lap(w.phases, Phase::search);
   if (!search_is_due(w.search, w.particles, w.step, w.dt, w.options.threads)) return;
   const ContactMaterial material{w.material.young_modulus, w.alpha, w.options.contact_damping, w.space};
-  renew_contacts(w.search, w.contacts, w.particles, material, w.features, w.options.threads);
-  w.contact_plan =
-      plan_scatter(w.options.scatter, w.options.threads, 1, w.contacts.row_lo, w.contacts.row_hi,
-                   w.contacts.gid_lo, w.contacts.gid_hi, w.contacts.arm_offset, w.particles.size);
+  renew_contacts(w.search, w.contacts, w.particles, material, w.features, w.ledger.enabled,
+                 w.options.threads);
+  renew_contacts(w.ledger, w.contacts.size);
+  w.contact_plan = plan_scatter(w.options.scatter, w.options.threads, LoadBlock::capacity, w.contacts.row_lo,
+                                w.contacts.row_hi, w.contacts.gid_lo, w.contacts.gid_hi,
+                                w.contacts.arm_offset, w.particles.size);
 }
 
 void confine(World& w) {
@@ -56,7 +58,7 @@ void contact_forces(World& w) {
   const ContactPassIn in{
       w.dt,     w.shear_ratio, w.friction, w.features.rotation, p.position,  p.velocity, p.spin,
       p.radius, c.row_lo,      c.row_hi,   c.arm_offset,        c.stiffness, c.damping};
-  const ContactPassHistory history{c.free_length, c.shear_force};
+  const ContactPassHistory history{c.free_length, c.shear_force, c.viscous_force, w.ledger.contacts};
   for_ranges(w.contact_plan.ranges, [&](int range) {
     contact_pass(in, history, w.contact_plan.first(range), w.contact_plan.first(range + 1), to);
   });
@@ -71,6 +73,12 @@ void gather_bond_forces(World& w) {
 void hold_skin(World& w) {
   const Lap lap(w.phases, Phase::confinement);
   hold_skin(w.confinement, w.particles);
+}
+
+void book_energies(World& w) {
+  if (!w.ledger.enabled) return;
+  const Lap lap(w.phases, Phase::ledger);
+  book_motion(w);
 }
 
 void move_platens(World& w) {
@@ -102,6 +110,7 @@ void advance(World& w) {
   contact_forces(w);
   hold_skin(w);
   move_platens(w);
+  book_energies(w);
   integrate(w);
   w.time += w.dt;
   ++w.step;

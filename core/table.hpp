@@ -23,6 +23,7 @@ constexpr bool is_needed(Need need, const Features& features) {
     case Need::breakage:
       return features.breakage;
     case Need::strength_area:
+    case Need::ledger:
     case Need::stress:
       return false;  // made by the one who fills it
   }

@@ -67,7 +67,8 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.space = assembly.space;
   w.volume = assembly.volume();
   w.law = law_of_scene(material, factor.shear_ratio, options.features);
-  w.features = built_features(w.law, options.features, options.precision);
+  const LoopKind kind{options.precision, options.ledger};
+  w.features = built_features(w.law, options.features, kind);
   std::visit(
       [&](const auto& law) {
         w.young = law.young;
@@ -91,11 +92,16 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.search = make_contact_search(assembly, options.new_contacts, 0.2 * assembly.mean_radius);
   w.cracks = make_crack_record(options.cracks && w.features.breakage, options.threads, w.bonds.size);
   w.bond_plan =
-      plan_scatter(options.scatter, options.threads, bond_batch, w.bonds.row_lo, w.bonds.row_hi,
+      plan_scatter(options.scatter, options.threads, LoadBlock::capacity, w.bonds.row_lo, w.bonds.row_hi,
                    std::span(w.bonds.gid_lo).first(w.bonds.size),
                    std::span(w.bonds.gid_hi).first(w.bonds.size), w.bonds.arm_offset, w.particles.size);
-  w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set, options.precision);
+  w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set, kind);
   w.integrate_free = integrate_free_for(options.instruction_set);
+  if (options.ledger) {
+    for (std::vector<double>* column : {&w.bonds.spring_force, &w.bonds.viscous_force, &w.bonds.shear_factor})
+      column->assign(w.bonds.padded, 0.0);
+    w.ledger = open_ledger(w);
+  }
   return w;
 }
 
@@ -114,7 +120,12 @@ BondPassIn bond_pass_in(const World& w) {
           w.narrow_bonds.constants()};
 }
 
-BondPassHistory bond_pass_history(World& w) { return {history_columns(w.bonds), w.narrow_bonds.history()}; }
+BondPassHistory bond_pass_history(World& w) {
+  BondTable& b = w.bonds;
+  return {history_columns(b),
+          w.narrow_bonds.history(),
+          {b.spring_force, b.viscous_force, b.shear_factor, w.ledger.bonds}};
+}
 
 void settle(World& w) { widen_history(w.narrow_bonds, 0, w.bonds.padded, w.bonds); }
 
@@ -143,22 +154,25 @@ double kinetic_energy(const World& w) {
   });
 }
 
-double stored_energy(const World& w) {
+double stored_energy(const World& w, double back) {
   std::vector<double> blocks;
+  const ParticleTable& p = w.particles;
+  const auto distance_of = [&](Row lo, Row hi) {
+    return norm(p.position[hi] - p.position[lo] - back * (p.velocity[hi] - p.velocity[lo]));
+  };
   const BondTable& b = w.bonds;
   const bool coupled = w.features.criterion == Criterion::coupled;
   double sum = std::visit(
       [&](const auto& law) {
         return sum_rows<double>(b.size, w.options.threads, blocks, [&](std::size_t k) {
-          const double distance = norm(w.particles.position[b.row_hi[k]] - w.particles.position[b.row_lo[k]]);
-          return stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k), distance, coupled);
+          return stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k),
+                               distance_of(b.row_lo[k], b.row_hi[k]), coupled);
         });
       },
       w.law);
   const ContactTable& c = w.contacts;
   for (std::size_t k = 0; k < c.size; ++k) {
-    const double overlap =
-        c.free_length[k] - norm(w.particles.position[c.row_hi[k]] - w.particles.position[c.row_lo[k]]);
+    const double overlap = c.free_length[k] - distance_of(c.row_lo[k], c.row_hi[k]);
     if (overlap <= 0.0) continue;
     sum += 0.5 * c.stiffness[k] * overlap * overlap;
     if (w.shear_ratio > 0.0)

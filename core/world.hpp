@@ -6,6 +6,7 @@
 #include "core/boundary.hpp"
 #include "core/contacts.hpp"
 #include "core/crack_record.hpp"
+#include "core/energy_ledger.hpp"
 #include "core/narrow_bonds.hpp"
 #include "core/phases.hpp"
 #include "core/scatter_plan.hpp"
@@ -28,6 +29,7 @@ struct WorldOptions {
   double safety = 0.8;  ///< of the critical step
   ScatterKind scatter = ScatterKind::private_sums;
   Precision precision = Precision::full;
+  bool ledger = false;  ///< books where the energy goes
   int threads = 1;
   InstructionSet instruction_set = best_instruction_set();
 };
@@ -57,6 +59,7 @@ struct World {
   ContactSearch search;
   ScatterPlan bond_plan, contact_plan;
   CrackRecord cracks;
+  EnergyLedger ledger;
   BondPass bond_pass = nullptr;
   IntegrateFree integrate_free = nullptr;
   Phases phases;
@@ -86,6 +89,9 @@ BrokenCount count_broken(const World& world);
 
 /// J
 double kinetic_energy(const World& world);
-double stored_energy(const World& world);
+/// @param back  s, by which the positions are taken back along the velocities: the world's step gives the
+/// moment
+///              of the last forces, and of the history
+double stored_energy(const World& world, double back = 0.0);
 
 }  // namespace breccia

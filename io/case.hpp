@@ -51,7 +51,7 @@ struct TestCase {
 };
 
 struct FeatureCase {  ///< what the scene may leave out
-  bool rotation = true, plasticity = true, breakage = true, new_contacts = true;
+  bool rotation = true, plasticity = true, breakage = true, new_contacts = true, energy_ledger = true;
 };
 
 struct Case {

@@ -54,7 +54,8 @@ std::string explain(const World& w) {
       w.options.new_contacts
           ? fmt::format("searched once a pair can meet: nearest are {:.3g} mm apart", w.search.slack * 1e3)
           : "surfaces pass through each other");
-  text += feature_line("energy ledger", false, false, "not in this version");
+  text += feature_line("energy ledger", w.options.ledger, w.options.ledger,
+                       "where the work goes, and the error of the balance");
   if (!(asked == built))
     text +=
         "  (on): left out by constants (no limit, no strength, no dashpot); no leaner kernel is built for "

@@ -40,7 +40,8 @@ namespace {
 Features features_that_run(const Case& c, const Features& asked) {
   const Material& m = c.materials.front();
   try {
-    return built_features(law_of(m, paper_shear_ratio(m.poisson_ratio)), asked, c.precision);
+    return built_features(law_of(m, paper_shear_ratio(m.poisson_ratio)), asked,
+                          {c.precision, c.features.energy_ledger});
   } catch (const std::invalid_argument&) {
     if (c.precision == Precision::mixed)
       fail<BadInput>(

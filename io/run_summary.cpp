@@ -127,6 +127,7 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   const double updates = static_cast<double>(w.bonds.size) * static_cast<double>(w.step);
   run.bond_updates_per_s = updates / (result.run_time - w.phases[Phase::output]);
   run.bond_pass_per_s = updates / (w.phases[Phase::bonds] + w.phases[Phase::gather]);
+  if (w.ledger.enabled) run.energy_error = energy_error(w.ledger);
   run.state_hash = state_hash(w.particles, w.bonds);
   run.stopped_by = name_of(result.stopped);
   run.warnings = result.warnings;

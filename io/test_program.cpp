@@ -54,6 +54,7 @@ WorldOptions world_options(const Case& c, const std::string& test, const Feature
   o.safety = c.safety;
   o.scatter = c.scatter;
   o.precision = c.precision;
+  o.ledger = c.features.energy_ledger;
   o.threads = threads;
   return o;
 }

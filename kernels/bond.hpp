@@ -26,8 +26,9 @@ struct BondHistory {
 /// Force of the spring along the normal and tangential force on lo, N.
 template <class R>
 struct BondForce {
-  R normal;  ///< tension positive, without damping
-  R damper;  ///< factor of the viscous force: 1 pressed, g(D_n) pulled, 0 broken and apart
+  R normal;        ///< tension positive, without damping
+  R damper;        ///< factor of the viscous force: 1 pressed, g(D_n) pulled, 0 broken and apart
+  R shear_factor;  ///< g of k_s: the tangential force over BondHistory::shear; 1 once broken
   Vec<R> shear;
 };
 

@@ -15,7 +15,10 @@ enum class BondColumn {
   shear_z,
   plastic_stretch,
   damage_normal,
-  damage_shear
+  damage_shear,
+  spring_force,
+  viscous_force,
+  shear_factor
 };
 
 }  // namespace breccia

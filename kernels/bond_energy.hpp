@@ -56,7 +56,7 @@ template <class Law>
 inline BondForce<double> force_of_state(const Law& law, const BondConstants<double>& bond,
                                         const BondHistory<double>& h, double distance, bool coupled) {
   const BondSecant s = secant_of(law, bond, h, distance, coupled);
-  return {s.normal * bond.stiffness * s.elastic, s.normal, s.shear * h.shear};
+  return {s.normal * bond.stiffness * s.elastic, s.normal, s.shear, s.shear * h.shear};
 }
 
 /// How near a bond is to failure: max(F_s/S, u_e/u_nf), 1 once broken. Santasusana's thesis, eq. 5.21, with

@@ -68,6 +68,14 @@ inline Pair<R> relative_motion(const Ends<R>& ends, const R& arm_offset, double 
   return p;
 }
 
+/// m, by which the pair became longer in this step: (d^2 - d0^2)/(d + d0), without the difference of two large
+/// numbers.
+template <class R>
+inline R elongation(const Ends<R>& ends, const Pair<R>& p, double dt) {
+  const Vec<R> moved = R(dt) * ends.velocity, before = ends.branch - moved;
+  return dot(moved, ends.branch + before) / (p.distance + square_root(dot(before, before)));
+}
+
 /// Carries a tangential vector along with the pair: the turn of the normal, then the mean twist about it.
 /// Its length does not change.
 template <bool rotation, class R>

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "kernels/bond_column.hpp"
-#include "kernels/bond_force.hpp"
+#include "kernels/bond_ledger.hpp"
 #include "kernels/bond_pass.hpp"
 #include "kernels/lane_rows.hpp"
 #include "kernels/scatter_block.hpp"
@@ -117,23 +117,59 @@ template <Features features, class Bonds>
     }
 }
 
+/// Work and losses of a batch, added to those of its block; the forces are kept for the next step.
+template <Features features, class Law, class Bonds>
+[[gnu::always_inline]] inline void keep_losses(const Law& law, const BondConstants<Lanes>& bond,
+                                               const Ends<Lanes>& ends, const Pair<Lanes>& pair, double dt,
+                                               const BondHistory<Lanes>& before, const BondHistory<Lanes>& h,
+                                               const BondAction<Lanes>& action, const Bonds& bonds,
+                                               std::size_t b, BondLosses<Lanes>& sum) {
+  LastForces<Lanes> last{bonds.template load<Column::spring_force>(b),
+                         bonds.template load<Column::viscous_force>(b),
+                         bonds.template load<Column::shear_factor>(b)};
+  const BondLosses<Lanes> loss =
+      losses_of_step<features>(law, bond, pair, elongation(ends, pair, dt), before, h, action, last);
+  bonds.template store<Column::spring_force>(b, last.spring);
+  bonds.template store<Column::viscous_force>(b, last.viscous);
+  bonds.template store<Column::shear_factor>(b, last.shear_factor);
+  sum.plastic += loss.plastic;
+  sum.viscous += loss.viscous;
+  sum.damage += loss.damage;
+  sum.friction += loss.friction;
+  sum.failure += loss.failure;
+}
+
+[[gnu::always_inline]] inline void add_lanes(const BondLosses<Lanes>& sum, BondLosses<double>& to) {
+  using std::experimental::reduce;
+  to.plastic += reduce(sum.plastic);
+  to.viscous += reduce(sum.viscous);
+  to.damage += reduce(sum.damage);
+  to.friction += reduce(sum.friction);
+  to.failure += reduce(sum.failure);
+}
+
 /// Bonds [first, last). To be flattened by the caller: with several laws in one file the compiler stops
 /// inlining a law into its loop by itself, and wide registers then travel through memory (19 ns a bond
 /// instead of 13).
-template <Features features, class Law, class Bonds>
+/// @tparam ledger  losses are summed block by block, `losses[b/64]`; ranges then begin at whole blocks, so
+/// that
+///                 no sum depends on how the bonds are shared out
+template <Features features, bool ledger, class Law, class Bonds>
 [[gnu::always_inline]] inline void bond_loop(const Law& law, double dt, const ParticleRows& p,
                                              const Bonds& bonds, std::size_t first, std::size_t last,
-                                             const Scatter& to, BreakNotes* notes) {
+                                             const Scatter& to, BreakNotes* notes,
+                                             std::span<BondLosses<double>> losses = {}) {
   LoadBlock block;
   while (first < last) {
     const std::size_t count = last - first < LoadBlock::capacity ? last - first : LoadBlock::capacity;
+    [[maybe_unused]] BondLosses<Lanes> loss;
     for (std::size_t k = 0; k < count; k += width) {
       const std::size_t b = first + k;
       if (b + ahead < bonds.size()) prefetch_ends<features>(p, bonds, to, b + ahead);
       Lanes arm_offset(0.0);
       if constexpr (features.rotation) arm_offset = bonds.template load<Column::arm_offset>(b);
-      const Pair<Lanes> pair =
-          relative_motion<features.rotation>(ends_of_batch<features>(p, bonds, b), arm_offset, dt);
+      const Ends<Lanes> ends = ends_of_batch<features>(p, bonds, b);
+      const Pair<Lanes> pair = relative_motion<features.rotation>(ends, arm_offset, dt);
       BondConstants<Lanes> bond{bonds.template load<Column::rest_length>(b),
                                 bonds.template load<Column::area>(b),
                                 bonds.template load<Column::strength_area>(b),
@@ -141,12 +177,16 @@ template <Features features, class Law, class Bonds>
       if constexpr (features.contact_damping) bond.damping = bonds.template load<Column::damping>(b);
       const BondHistory<Lanes> before = history_of<features>(bonds, b);
       BondHistory<Lanes> h = before;
-      const Vec<Lanes> force = bond_force<features>(law, bond, pair, h);
+      const BondAction<Lanes> action = bond_action<features>(law, bond, pair, h);
+      const Vec<Lanes> force = force_on_lo(action, pair);
       keep_history<features>(bonds, h, before, b, notes);
+      if constexpr (ledger)
+        keep_losses<features>(law, bond, ends, pair, dt, before, h, action, bonds, b, loss);
       store_rows(force, &block.load[k].force, stride);
       if constexpr (features.rotation)
         store_rows(pair.distance * cross(pair.normal, force), &block.load[k].moment, stride);
     }
+    if constexpr (ledger) add_lanes(loss, losses[first / LoadBlock::capacity]);
     scatter_block(to, block, first, count);
     first += count;
   }

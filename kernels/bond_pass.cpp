@@ -15,6 +15,7 @@ struct ColumnBonds {
   const BondPassIn& in;
   const BondConstantColumns<Stored>& constants;
   const BondHistoryColumns<Stored>& history;
+  const BondLedgerColumns& ledger;
 
   Index lo(std::size_t k) const { return in.row_lo[k]; }
   Index hi(std::size_t k) const { return in.row_hi[k]; }
@@ -44,28 +45,32 @@ private:
     if constexpr (column == Column::plastic_stretch) return history.plastic_stretch;
     if constexpr (column == Column::damage_normal) return history.damage_normal;
     if constexpr (column == Column::damage_shear) return history.damage_shear;
+    if constexpr (column == Column::spring_force) return ledger.spring_force;
+    if constexpr (column == Column::viscous_force) return ledger.viscous_force;
+    if constexpr (column == Column::shear_factor) return ledger.shear_factor;
   }
 };
 
 ParticleRows rows_of(const BondPassIn& in) { return {in.position, in.velocity, in.spin}; }
 
-template <class Law, Features features>
+template <std::size_t k>
 [[gnu::flatten]] void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first,
                                 std::size_t last, const Scatter& to, BreakNotes* notes) {
-  const ColumnBonds<double> bonds{in, in.constants, history.full};
-  bond_loop<features>(*static_cast<const Law*>(in.law), in.dt, rows_of(in), bonds, first, last, to, notes);
-}
-
-template <class Law, Features features>
-[[gnu::flatten]] void mixed_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first,
-                                 std::size_t last, const Scatter& to, BreakNotes* notes) {
-  const ColumnBonds<float> bonds{in, in.narrow_constants, history.narrow};
-  bond_loop<features>(*static_cast<const Law*>(in.law), in.dt, rows_of(in), bonds, first, last, to, notes);
+  constexpr KernelKind kernel = kernel_list[k];
+  const auto run = [&](const auto& bonds) {
+    bond_loop<kernel.features, kernel.kind.ledger>(*static_cast<const LawOfKernel<k>*>(in.law), in.dt,
+                                                   rows_of(in), bonds, first, last, to, notes,
+                                                   history.ledger.losses);
+  };
+  if constexpr (kernel.kind.precision == Precision::full)
+    run(ColumnBonds<double>{in, in.constants, history.full, history.ledger});
+  else
+    run(ColumnBonds<float>{in, in.narrow_constants, history.narrow, history.ledger});
 }
 
 template <std::size_t... k>
 constexpr std::array<BondPass, sizeof...(k)> all_passes(std::index_sequence<k...>) {
-  return {bond_pass<LawOfKernel<k>, kernel_list[k].features>...};
+  return {bond_pass<k>...};
 }
 
 }  // namespace
@@ -73,8 +78,5 @@ constexpr std::array<BondPass, sizeof...(k)> all_passes(std::index_sequence<k...
 extern const std::array<BondPass, kernel_list.size()> passes;
 const std::array<BondPass, kernel_list.size()> passes =
     all_passes(std::make_index_sequence<kernel_list.size()>{});
-
-extern const BondPass mixed;
-const BondPass mixed = mixed_pass<LawOfKernel<mixed_kernel>, kernel_list[mixed_kernel].features>;
 
 }  // namespace breccia::BRECCIA_ISA

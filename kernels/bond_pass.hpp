@@ -5,6 +5,7 @@
 #include <span>
 
 #include "kernels/bond_laws.hpp"
+#include "kernels/bond_ledger.hpp"
 #include "kernels/instruction_set.hpp"
 #include "kernels/scatter.hpp"
 
@@ -38,9 +39,16 @@ struct BondPassIn {
   BondConstantColumns<float> narrow_constants;
 };
 
+/// What the pass keeps of energies, where the scene has a ledger.
+struct BondLedgerColumns {
+  std::span<double> spring_force, viscous_force, shear_factor;
+  std::span<BondLosses<double>> losses;  ///< J, since the start, a sum for each 64 bonds
+};
+
 struct BondPassHistory {
   BondHistoryColumns<double> full;
   BondHistoryColumns<float> narrow;
+  BondLedgerColumns ledger;
 };
 
 /// A bond that broke in this step, as it was before.
@@ -56,19 +64,20 @@ struct BreakNotes {
   std::size_t count = 0;
 };
 
-/// Bonds [first, last), both multiples of `bond_batch`. Breaks are noted unless the pointer is null.
+/// Bonds [first, last), both multiples of `bond_batch`, `first` of LoadBlock::capacity where there is a
+/// ledger. Breaks are noted unless the pointer is null.
 using BondPass = void (*)(const BondPassIn&, const BondPassHistory&, std::size_t first, std::size_t last,
                           const Scatter&, BreakNotes*);
 
 /// The feature set that will run for a scene: the one asked for, or its nearest superset that is built for
 /// the law.
 /// @throws std::invalid_argument when none is
-Features built_features(const BondLaw& law, const Features& asked, Precision precision = Precision::full);
+Features built_features(const BondLaw& law, const Features& asked, const LoopKind& kind = {});
 
 /// The kernel for features that are built (see built_features).
-/// @throws std::invalid_argument when there is none, or none of this precision
+/// @throws std::invalid_argument when there is none, or none of this kind
 BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set,
-                       Precision precision = Precision::full);
+                       const LoopKind& kind = {});
 
 /// The law's constants as the kernel takes them; valid as long as the law.
 inline const void* constants_of(const BondLaw& law) {

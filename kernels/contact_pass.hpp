@@ -7,6 +7,11 @@
 
 namespace breccia {
 
+/// What contacts take up and do not give back, J. MODEL section 9.
+struct ContactLosses {
+  double viscous = 0, friction = 0;
+};
+
 struct ContactPassIn {
   double dt = 0;           ///< s
   double shear_ratio = 0;  ///< k_s/k_n
@@ -22,6 +27,8 @@ struct ContactPassIn {
 struct ContactPassHistory {
   std::span<double> free_length;
   std::span<Vec3> shear_force;
+  std::span<double> viscous_force;       ///< empty where the scene has no ledger
+  std::span<ContactLosses> losses = {};  ///< J, since the start, a sum for each 64 contacts
 };
 
 void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, std::size_t first,

@@ -9,17 +9,14 @@ namespace breccia {
 
 namespace x86_64 {
 extern const std::array<BondPass, kernel_list.size()> passes;
-extern const BondPass mixed;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 }  // namespace x86_64
 namespace x86_64_v3 {
 extern const std::array<BondPass, kernel_list.size()> passes;
-extern const BondPass mixed;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 }  // namespace x86_64_v3
 namespace x86_64_v4 {
 extern const std::array<BondPass, kernel_list.size()> passes;
-extern const BondPass mixed;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 }  // namespace x86_64_v4
 
@@ -46,22 +43,17 @@ IntegrateFree integrate_free_for(InstructionSet set) {
                                   x86_64_v4::integrate_free);
 }
 
-Features built_features(const BondLaw& law, const Features& asked, Precision precision) {
-  for (std::size_t k = 0; k < kernel_list.size(); ++k)
-    if (kernel_list[k].law == law.index() && kernel_list[k].features.covers(asked) &&
-        (precision == Precision::full || k == mixed_kernel))
-      return kernel_list[k].features;
+Features built_features(const BondLaw& law, const Features& asked, const LoopKind& kind) {
+  for (const KernelKind& k : kernel_list)
+    if (k.law == law.index() && k.features.covers(asked) && k.kind == kind) return k.features;
   throw std::invalid_argument("no bond kernel of this law covers the scene's features");
 }
 
-BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set, Precision precision) {
-  for (std::size_t k = 0; k < kernel_list.size(); ++k) {
-    if (kernel_list[k].law != law.index() || !(kernel_list[k].features == built)) continue;
-    if (precision == Precision::full)
+BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set, const LoopKind& kind) {
+  for (std::size_t k = 0; k < kernel_list.size(); ++k)
+    if (kernel_list[k].law == law.index() && kernel_list[k].features == built && kernel_list[k].kind == kind)
       return built_for(set, x86_64::passes, x86_64_v3::passes, x86_64_v4::passes)[k];
-    if (k == mixed_kernel) return built_for(set, x86_64::mixed, x86_64_v3::mixed, x86_64_v4::mixed);
-  }
-  throw std::invalid_argument("no bond kernel is built for these features in this precision");
+  throw std::invalid_argument("no bond kernel is built for these features in this kind of loop");
 }
 
 }  // namespace breccia

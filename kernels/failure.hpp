@@ -181,7 +181,7 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
     if (any(slides)) h.shear = select(slides, (limit / square_root(size2)) * h.shear, h.shear);
     g_shear = select(broken, one, g_shear);
   }
-  return {normal, damper, g_shear * h.shear};
+  return {normal, damper, g_shear, g_shear * h.shear};
 }
 
 }  // namespace breccia

@@ -10,6 +10,14 @@ enum class Criterion : unsigned char { uncoupled, coupled, mohr_coulomb };
 /// mixed: parameters and history as floats, but for the rest length
 enum class Precision : unsigned char { full, mixed };
 
+/// What a loop does beside the law.
+struct LoopKind {
+  Precision precision = Precision::full;
+  bool ledger = false;  ///< books where the energy of each bond goes
+
+  constexpr bool operator==(const LoopKind&) const = default;
+};
+
 /// A structural type, so that a kernel can take it as a template parameter.
 struct Features {
   bool rotation = true;         ///< particles spin; bonds pass torques

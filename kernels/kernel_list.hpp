@@ -1,6 +1,6 @@
 // The kernels that are built per instruction set: each law for each of its feature sets, in the order of
-// bond_laws.hpp, and one of them for mixed precision too. At most 27 over all instruction sets, for the sake
-// of the time to build.
+// bond_laws.hpp; once more with the energy ledger for the fullest of them; and the Dempack law with all that
+// it has in mixed precision, with and without the ledger.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -12,30 +12,42 @@ namespace breccia {
 struct KernelKind {
   std::size_t law = 0;  ///< index in BondLaw
   Features features;
+  LoopKind kind;
 };
+
+/// True when no other set of the law has all that `features` has.
+template <class Law>
+constexpr bool is_fullest(const Law& law, const Features& features) {
+  for (const Features& other : law.feature_sets)
+    if (!(other == features) && other.covers(features)) return false;
+  return true;
+}
+
+/// Calls visit(KernelKind) for each kernel, in order.
+template <class Visit>
+constexpr void for_each_kernel(Visit&& visit) {
+  std::size_t law_index = 0;
+  for_each_law([&](const auto& law) {
+    for (const Features& f : law.feature_sets) {
+      visit(KernelKind{law_index, f, {}});
+      if (is_fullest(law, f)) visit(KernelKind{law_index, f, {Precision::full, true}});
+    }
+    ++law_index;
+  });
+  for (const bool ledger : {false, true}) visit(KernelKind{0, {}, {Precision::mixed, ledger}});
+}
 
 inline constexpr std::size_t kernel_count = [] {
   std::size_t n = 0;
-  for_each_law([&](const auto& law) { n += law.feature_sets.size(); });
+  for_each_kernel([&](const KernelKind&) { ++n; });
   return n;
 }();
-static_assert(3 * (kernel_count + 1) <= 27);
 
 inline constexpr std::array<KernelKind, kernel_count> kernel_list = [] {
   std::array<KernelKind, kernel_count> list{};
-  std::size_t n = 0, law_index = 0;
-  for_each_law([&](const auto& law) {
-    for (const Features& f : law.feature_sets) list[n++] = {law_index, f};
-    ++law_index;
-  });
+  std::size_t n = 0;
+  for_each_kernel([&](const KernelKind& k) { list[n++] = k; });
   return list;
-}();
-
-/// The Dempack law with all that it has.
-inline constexpr std::size_t mixed_kernel = [] {
-  std::size_t k = 0;
-  while (kernel_list[k].law != 0 || !(kernel_list[k].features == Features{})) ++k;
-  return k;
 }();
 
 template <std::size_t k>

@@ -187,7 +187,7 @@ inline Forces forces_now(World w) {  // a copy: history advances
   to.to_lo = c.row_lo, to.to_hi = c.row_hi, to.arm_offset = c.arm_offset;
   contact_pass({w.dt, w.shear_ratio, w.friction, w.features.rotation, p.position, p.velocity, p.spin,
                 p.radius, c.row_lo, c.row_hi, c.arm_offset, c.stiffness, c.damping},
-               {c.free_length, c.shear_force}, 0, c.size, to);
+               {c.free_length, c.shear_force, {}}, 0, c.size, to);
   return f;
 }
 

@@ -45,7 +45,7 @@ template <std::size_t block>
   static_assert(block == 1 || block % width == 0);
   const BlockBonds<block> bonds{in, stored};
   const ParticleRows rows{in.position, in.velocity, in.spin};
-  bond_loop<Features{}>(*static_cast<const DempackLaw*>(in.law), in.dt, rows, bonds, first, last, to,
+  bond_loop<Features{}, false>(*static_cast<const DempackLaw*>(in.law), in.dt, rows, bonds, first, last, to,
                         nullptr);
 }
 

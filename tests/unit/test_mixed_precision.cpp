@@ -69,7 +69,7 @@ TEST_CASE("mixed precision: what breaks is recorded and seen in the table of bon
 TEST_CASE("mixed precision: built for the Dempack law alone") {
   ref::Parameters p;
   const BondLaw law = scene::law(p);
-  CHECK(built_features(law, {.rotation = false}, Precision::mixed) == Features{});
-  CHECK_THROWS(built_features(law, {.criterion = Criterion::coupled}, Precision::mixed));
-  CHECK_THROWS(bond_pass_for(law, {.rotation = false}, InstructionSet::x86_64, Precision::mixed));
+  CHECK(built_features(law, {.rotation = false}, {Precision::mixed}) == Features{});
+  CHECK_THROWS(built_features(law, {.criterion = Criterion::coupled}, {Precision::mixed}));
+  CHECK_THROWS(bond_pass_for(law, {.rotation = false}, InstructionSet::x86_64, {Precision::mixed}));
 }
