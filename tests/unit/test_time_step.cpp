@@ -2,6 +2,8 @@
 // new contacts lower.
 #include <doctest/doctest.h>
 
+#include <numeric>
+
 #include "core/elastic_network.hpp"
 #include "core/error.hpp"
 #include "core/largest_eigenvalue.hpp"
@@ -83,7 +85,7 @@ double limit_of(DampingScheme scheme, double s, double d, double cap, double loa
 constexpr std::array schemes{DampingScheme::explicit_, DampingScheme::capped, DampingScheme::summed};
 
 void check_step(const World& w, double exact) {
-  CHECK(exact_time_step(scene_of(w)) == doctest::Approx(exact).epsilon(1e-6));
+  CHECK(std::abs(exact_time_step(scene_of(w)) / exact - 1) < 1e-6);
   CHECK(w.critical_dt < exact);
   CHECK(w.critical_dt > 0.975 * exact);
   CHECK(w.dt == 0.8 * w.critical_dt);
@@ -98,8 +100,8 @@ TEST_CASE("time step: undamped chain dt = 2/omega_max, omega_max = 2 sqrt(k/m) c
         w, 1 / (std::sqrt(w.bonds.stiffness[0] / w.particles.mass[0]) * std::cos(pi / (2.0 * double(n)))));
   }
   // long fibre (Guo 2013): sqrt(2/3) L sqrt(rho/E)
-  CHECK(exact_time_step(scene_of(chain(60, elastic(0, 0)))) ==
-        doctest::Approx(std::sqrt(2.0 / 3.0) * 0.02 * std::sqrt(2500 / 28e9)).epsilon(1e-3));
+  const double fibre = std::sqrt(2.0 / 3.0) * 0.02 * std::sqrt(2500 / 28e9);
+  CHECK(std::abs(exact_time_step(scene_of(chain(60, elastic(0, 0)))) / fibre - 1) < 1e-3);
 }
 
 TEST_CASE("time step: damped pair and chain under each scheme, lambda(dt) = 1/(1 + alpha) [MODEL 8, 1e-6]") {
@@ -141,7 +143,7 @@ TEST_CASE("time step: a light stiff pair apart from 400 others decides [MODEL 8,
   ref::Parameters p = elastic(0, 0);
   p.beta = 0.01;
   const World w = world_of(balls, p, DampingScheme::explicit_);
-  check_step(w, 1 / std::sqrt(w.bonds.stiffness[w.bonds.size - 1] / w.particles.mass[401]));
+  check_step(w, std::sqrt(2 * w.particles.mass[401] / w.bonds.stiffness[w.bonds.size - 1]));
 }
 
 TEST_CASE("time step: schemes' dashpots are those of the step, or of the step at which they are held") {
@@ -162,8 +164,8 @@ TEST_CASE("time step: schemes' dashpots are those of the step, or of the step at
     const World held =
         make_world(scene::free_body(balls, 0.01, o.features), scene::material_of(p), scene::factor(p), o);
     CHECK(held.bonds.damping[1] == doctest::Approx(at(3 * w.dt)).epsilon(1e-12));
-    CHECK(exact_time_step(scene_of(held)) ==
-          doctest::Approx(root(0.75 * k / m, 1.5 * at(3 * w.dt) / m, 1)).epsilon(1e-6));
+    CHECK(std::abs(exact_time_step(scene_of(held)) / root(0.75 * k / m, 1.5 * at(3 * w.dt) / m, 1) - 1) <
+          1e-6);
   }
 }
 
@@ -227,8 +229,10 @@ TEST_CASE("time step: small spheres that come near lower it, dashpots follow, an
   for (const DampingScheme scheme : schemes) {
     ref::Parameters p = elastic(0.4, 0.9);
     std::vector<Ball> balls{{1, 0.01, {0, 0, 0}}, {2, 0.01, {0, 0, 0.02}}};
-    for (Gid k = 0; k < 4; ++k)  // fly towards the first sphere
-      balls.push_back({k + 3, 0.0015, {0.014, 0.0035 * (double(k) - 1.5), 0}, 0, {-1, 0, 0}});
+    for (Gid k = 0; k < 4; ++k) {  // fly towards the first sphere
+      const Vec3 outward{std::cos(0.35 * double(k)), std::sin(0.35 * double(k)), 0};
+      balls.push_back({k + 3, 0.0015, 0.0119 * outward, 0, -10.0 * outward});
+    }
     WorldOptions o = scene::options(p);
     o.damping_scheme = scheme;
     Assembly a = scene::free_body(balls, 0.1, o.features);
@@ -243,13 +247,13 @@ TEST_CASE("time step: small spheres that come near lower it, dashpots follow, an
       CHECK_MESSAGE(w.dt <= lowest, "raised at step ", k);
       lowest = w.dt;
       most = std::max(most, kinetic_energy(w));
-      touched = touched || w.particles.velocity[2].x > 0;
+      touched = touched || dot(w.particles.velocity[2], w.particles.position[2]) > 0;
     }
     CHECK(touched);
     CHECK(w.dt < 0.5 * first);
     CHECK(w.step_watch.looks >= 1);
     CHECK(w.step_watch.first_dt == first);
-    CHECK(most < 1.01 * 0.5 * 4 * w.particles.mass[2]);  // nobody is faster than they came
+    CHECK(most < 1.01 * 0.5 * 4 * w.particles.mass[2] * 100);  // nobody is faster than they came
     const double c = bond_dashpot(w.dashpots, w.particles, w.bonds, 0, w.dt);
     CHECK(w.bonds.damping[0] == c);
     CHECK((scheme == DampingScheme::explicit_ ||
@@ -264,6 +268,7 @@ TEST_CASE("time step: what contacts add to the stability number stays below its 
   const Assembly a = assemble(scene::small_packing(200), scene::small_cylinder(), {}, o.features, 1);
   World w = make_world(a, scene::material_of(p), scene::factor(p), o);
   const double without = stability_number(scene_of(w), w.dt);
+  w.search.skin *= 5;  // many at once
   renew_contacts(w.search, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, o.features, 1);
   REQUIRE(w.contacts.size > 20);
   std::vector<std::size_t> all(w.contacts.size);
