@@ -78,20 +78,19 @@ TEST_CASE("step limit: bounded over 1e5 steps at 0.99 of it, blown up at 1.02, w
     CHECK(growth({0.0, 0.0, DampingScheme::explicit_, rotation}, 0.99, 100000) < 100);
     CHECK(growth({0.0, 0.0, DampingScheme::explicit_, rotation}, 1.02, 20000) > 1e6);
     for (const DampingScheme scheme : schemes) {
-      INFO(name_of(scheme), rotation ? ", spheres turn" : "");
+      INFO(std::string(name_of(scheme)), rotation ? ", spheres turn" : "");
       CHECK(growth({0.9, 0.0, scheme, rotation}, 0.99, 100000) < 1);
       CHECK(growth({0.9, 0.0, scheme, rotation}, 1.02, 20000) > 1e6);
     }
   }
 }
 
-TEST_CASE("step limit: with global damping bounded over 1e5 steps at 0.99 of it") {
+// the global damping does not hold the growth back: (1 + alpha) lambda = 1 is where it begins
+TEST_CASE("step limit: the same with global damping") {
   for (const bool rotation : {true, false})
     for (const DampingScheme scheme : schemes) {
-      INFO(name_of(scheme), rotation ? ", spheres turn" : "");
+      INFO(std::string(name_of(scheme)), rotation ? ", spheres turn" : "");
       CHECK(growth({0.9, 0.1, scheme, rotation}, 0.99, 100000) < 1);
-      for (const double fraction : {1.02, 1.05, 1.1, 1.2})
-        MESSAGE(name_of(scheme), rotation, " ", fraction, " ",
-                growth({0.9, 0.1, scheme, rotation}, fraction, 20000));
+      CHECK(growth({0.9, 0.1, scheme, rotation}, 1.02, 20000) > 1e6);
     }
 }

@@ -109,7 +109,7 @@ TEST_CASE("time step: damped pair and chain under each scheme, lambda(dt) = 1/(1
     for (const std::size_t n : {2, 3, 12})
       for (const double xi : {0.1, 0.9})
         for (const double global : {0.0, 0.1, 0.3}) {
-          INFO(name_of(scheme), ", ", n, " spheres, xi ", xi, ", global ", global);
+          INFO(std::string(name_of(scheme)), ", ", n, " spheres, xi ", xi, ", global ", global);
           const World w = chain(n, elastic(0, xi, global), scheme);
           const double m = w.particles.mass[0], k = w.bonds.stiffness[0], c = 2 * xi * std::sqrt(0.5 * m * k);
           const double mode = 4 * std::pow(std::cos(pi / (2.0 * double(n))), 2) / m;  // omega^2 over k
