@@ -14,7 +14,7 @@ struct LargestEigenvalue {
 struct LanczosEffort {
   int applications = 0;
   double tolerance = 0;  ///< of the residual over the value at which it may end sooner; 0: never
-  int early = 12;        ///< applications after which `early` is taken
+  int early = 8;         ///< applications after which `early` is taken
 };
 
 /// Lanczos iteration from a random vector, three vectors in all: nothing is orthogonalised again, which makes

@@ -18,7 +18,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Of the stability number in a run.
-constexpr double number_error = 0.02, number_chance = 1e-4;
+constexpr double number_error = 0.02, number_chance = 1e-3;
 
 /// 1/sqrt of mass and inertia, zero where a particle cannot move.
 Eigen::VectorXd roots_of_masses(const StepScene& s) {

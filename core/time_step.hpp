@@ -29,7 +29,7 @@ struct StepScene {
 /// With K and C the stiffness and damping of bonds and contacts, the scheme (damping forces from velocities
 /// half a step old) is stable if and only if lambda(dt), the largest eigenvalue of M^-1 (dt^2 K/4 + dt
 /// C(dt)/2), is at most 1/(1 + alpha). These are that value's (1 + alpha)-fold: 1 is the limit.
-/// @returns from below, short by more than 2 % with a probability under 1e-4
+/// @returns from below, short by more than 2 % with a probability under 1e-3
 double stability_number(const StepScene& scene, double dt);
 
 /// No more than this times `dt`-fold can be added by the contacts given: a proven bound, by norms. The norm
@@ -38,7 +38,7 @@ double stability_number(const StepScene& scene, double dt);
 /// @param contacts  rows of scene.contacts
 double stability_number_bound(const StepScene& scene, std::span<const std::size_t> contacts, double dt);
 
-/// The step at which the stability number is 1, less 2 % for its error from below. Costs some eighty
+/// The step at which the stability number is 1, less 2 % for its error from below. Costs some sixty
 /// applications of K.
 /// @returns s; infinity where nothing is stiff
 double critical_time_step(const StepScene& scene);
