@@ -39,7 +39,7 @@ struct BondTable {
 };
 
 /// The areas that strengths stand on.
-inline const std::vector<double>& strength_areas(const BondTable& bonds) {
+inline const Column<double>& strength_areas(const BondTable& bonds) {
   return bonds.strength_area.empty() ? bonds.area : bonds.strength_area;
 }
 
@@ -58,7 +58,7 @@ inline BondConstants<double> constants_of_bond(const BondTable& bonds, std::size
 
 /// What bond `k` remembers; what the scene leaves out is zero.
 inline BondHistory<double> history_of_bond(const BondTable& bonds, std::size_t k) {
-  const auto value = [k](const std::vector<double>& column) { return column.empty() ? 0.0 : column[k]; };
+  const auto value = [k](const Column<double>& column) { return column.empty() ? 0.0 : column[k]; };
   return {{bonds.shear_x[k], bonds.shear_y[k], bonds.shear_z[k]},
           value(bonds.plastic_stretch),
           value(bonds.damage_normal),

@@ -18,7 +18,7 @@ struct ContactSearch {
   int check_every = 16;          ///< steps
   std::uint64_t next_check = 0;  ///< step
   std::uint64_t rebuilds = 0;
-  std::vector<Vec3> position;        ///< m, of the particles when the list was made
+  Column<Vec3> position;        ///< m, of the particles when the list was made
   std::vector<Index> first_partner;  ///< per particle: rows bonded to it, rising
   std::vector<Row> partners;
 };

@@ -44,7 +44,7 @@ Gauge lateral_gauge(const Assembly& a) {
   return g;
 }
 
-double read_gauge(const Gauge& gauge, const std::vector<Vec3>& position, const std::vector<Vec3>& reference) {
+double read_gauge(const Gauge& gauge, std::span<const Vec3> position, std::span<const Vec3> reference) {
   double strain = 0.0;
   for (std::size_t k = 0; k < gauge.rows.size(); ++k)
     strain += dot(gauge.weights[k], position[gauge.rows[k]] - reference[gauge.rows[k]]);

@@ -21,6 +21,6 @@ Gauge axial_gauge(const Assembly& assembly);
 Gauge lateral_gauge(const Assembly& assembly);
 
 /// Strain of the gauge between reference and present positions.
-double read_gauge(const Gauge& gauge, const std::vector<Vec3>& position, const std::vector<Vec3>& reference);
+double read_gauge(const Gauge& gauge, std::span<const Vec3> position, std::span<const Vec3> reference);
 
 }  // namespace breccia

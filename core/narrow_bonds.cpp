@@ -5,8 +5,8 @@
 namespace breccia {
 namespace {
 
-std::vector<float> narrowed(const std::vector<double>& column) {
-  std::vector<float> narrow(column.size());
+Column<float> narrowed(const Column<double>& column) {
+  Column<float> narrow(column.size());
   std::transform(column.begin(), column.end(), narrow.begin(),
                  [](double v) { return static_cast<float>(v); });
   return narrow;
@@ -24,7 +24,7 @@ NarrowBonds narrow_bonds(const BondTable& b) {
 void narrow_dashpots(const BondTable& b, NarrowBonds& narrow) { narrow.damping = narrowed(b.damping); }
 
 void widen_history(const NarrowBonds& narrow, std::size_t first, std::size_t last, BondTable& b) {
-  const auto widen = [&](const std::vector<float>& from, std::vector<double>& to) {
+  const auto widen = [&](const Column<float>& from, Column<double>& to) {
     for (std::size_t k = first; k < std::min(last, from.size()); ++k) to[k] = from[k];
   };
   widen(narrow.shear_x, b.shear_x);

@@ -2,8 +2,6 @@
 // writes. The table of bonds stays what everything else reads; its history is brought up to date where it is
 // looked at (settle in core/world.hpp).
 #pragma once
-#include <vector>
-
 #include "core/bond_table.hpp"
 #include "kernels/bond_pass.hpp"
 
@@ -11,8 +9,8 @@ namespace breccia {
 
 /// Empty where the scene runs in full precision; columns of absent features are empty.
 struct NarrowBonds {
-  std::vector<float> arm_offset, area, strength_area, stiffness, damping;
-  std::vector<float> shear_x, shear_y, shear_z, plastic_stretch, damage_normal, damage_shear;
+  Column<float> arm_offset, area, strength_area, stiffness, damping;
+  Column<float> shear_x, shear_y, shear_z, plastic_stretch, damage_normal, damage_shear;
 
   bool empty() const { return area.empty(); }
   BondConstantColumns<float> constants() const {

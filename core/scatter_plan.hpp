@@ -16,15 +16,15 @@ struct ScatterPlan {
   int ranges = 1;
   std::size_t rows = 0;             ///< bonds, padding included
   std::size_t batch = 1;            ///< ranges begin at multiples of this
-  std::vector<Index> to_lo, to_hi;  ///< empty where they equal the rows of the ends
+  Column<Index> to_lo, to_hi;  ///< empty where they equal the rows of the ends
   /// private sums: shared particle k adds slots[first_slot[k] ... first_slot[k + 1]), in the order of ranges
   std::vector<Index> shared, first_slot, slots;
   std::size_t slot_count = 0;
   /// gather: particle p sums entries[first_entry[p] ...): bond row << 1 | particle is hi, in the order of
   /// bonds' ids
-  std::vector<Index> first_entry, entries;
-  std::vector<double> entry_share;  ///< of the bond's moment that the particle gets; empty without torques
-  std::vector<BondLoad> bond_load;
+  Column<Index> first_entry, entries;
+  Column<double> entry_share;  ///< of the bond's moment that the particle gets; empty without torques
+  Column<BondLoad> bond_load;
 
   std::size_t first(int range) const;
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/column.hpp"
+#include "core/column_storage.hpp"
 #include "kernels/features.hpp"
 
 namespace breccia {
@@ -42,7 +43,7 @@ std::size_t column_bytes(const Table& table) {
 
 }  // namespace breccia
 
-#define BRECCIA_COLUMN_MEMBER(Type, column, unit, role, need, meaning) std::vector<Type> column;
+#define BRECCIA_COLUMN_MEMBER(Type, column, unit, role, need, meaning) Column<Type> column;
 #define BRECCIA_COLUMN_VISIT(Type, column, unit, role, need, meaning) \
   visit(ColumnInfo{#Type, #column, unit, Role::role, Need::need, meaning}, column);
 

@@ -88,7 +88,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set, kind);
   w.integrate_free = integrate_free_for(options.instruction_set);
   if (options.ledger) {
-    for (std::vector<double>* column : {&w.bonds.spring_force, &w.bonds.viscous_force, &w.bonds.shear_factor})
+    for (Column<double>* column : {&w.bonds.spring_force, &w.bonds.viscous_force, &w.bonds.shear_factor})
       column->assign(w.bonds.padded, 0.0);
     w.ledger = open_ledger(w);
   }

@@ -51,7 +51,7 @@ void write_rows(hid_t group, const ColumnInfo& info, std::string_view role, cons
 /// One dataset for each column of a wanted role that the scene has, its rows in the given order.
 template <class Table>
 void write_columns(hid_t group, const Table& table, std::span<const Row> order, bool (*wanted)(Role)) {
-  table.for_each_column([&]<class T>(const ColumnInfo& info, const std::vector<T>& column) {
+  table.for_each_column([&]<class T>(const ColumnInfo& info, const Column<T>& column) {
     if constexpr (!std::is_same_v<T, Row>) {  // rows of this rank mean nothing outside; all are scratch
       if (!wanted(info.role) || column.empty()) return;
       std::vector<T> rows;
@@ -75,7 +75,7 @@ void write_states(hid_t group, const BondTable& bonds, std::span<const Row> orde
 template <class Table>
 std::size_t bytes_of(const Table& table, bool (*wanted)(Role)) {
   std::size_t bytes = 0;
-  table.for_each_column([&]<class T>(const ColumnInfo& info, const std::vector<T>& column) {
+  table.for_each_column([&]<class T>(const ColumnInfo& info, const Column<T>& column) {
     // 8 kB: header, attributes, index of chunks; 1/256: check sums, last rows of chunks, index of many chunks
     if (wanted(info.role) && !column.empty()) bytes += table.size * sizeof(T) * 257 / 256 + 8192;
   });

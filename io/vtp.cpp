@@ -76,7 +76,7 @@ Array array_of(std::string_view name, std::span<const Row> rows, Value&& value) 
 
 /// A column of the table. Row columns are scratch and never come here.
 template <class T>
-void add_column(std::vector<Array>& arrays, const ColumnInfo& info, const std::vector<T>& column,
+void add_column(std::vector<Array>& arrays, const ColumnInfo& info, const Column<T>& column,
                 std::span<const Row> rows) {
   if (info.role == Role::scratch || column.empty()) return;
   if constexpr (!std::is_same_v<T, Row>) {
