@@ -1,0 +1,56 @@
+#include "core/workprecision/recipe.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace breccia {
+
+std::string_view name_of(DampingScheme scheme) {
+  switch (scheme) {
+    case DampingScheme::explicit_dashpot:
+      return "explicit";
+    case DampingScheme::summed:
+      return "summed";
+    case DampingScheme::capped:
+      return "capped";
+  }
+  return "?";
+}
+
+std::string_view name_of(Precision precision) { return precision == Precision::mixed ? "mixed" : "full"; }
+
+std::string_view word_of(ScatterKind scatter) {
+  switch (scatter) {
+    case ScatterKind::atomic:
+      return "atomic";
+    case ScatterKind::private_sums:
+      return "private";
+    case ScatterKind::gather:
+      return "gather";
+  }
+  return "?";
+}
+
+std::string describe(const Recipe& r) {
+  const std::string damping = r.damping.translation == r.damping.rotation
+                                  ? fmt::format("{}", r.damping.translation)
+                                  : fmt::format("{}/{}", r.damping.translation, r.damping.rotation);
+  return fmt::format("step {}, {} m/s, {}, mass {}, damping {}, {}, {}", r.safety, r.platen_speed,
+                     name_of(r.scheme), r.mass_factor, damping, name_of(r.precision), word_of(r.scatter));
+}
+
+std::string case_lines(const Recipe& r) {
+  return fmt::format(
+      "[test]\nplaten_speed = \"{} m/s\"\n\n[time]\nsafety = {}\n\n[damping]\nscheme = \"{}\"\ntranslation = "
+      "{}\nrotation = {}\n\n[run]\nprecision = \"{}\"\nscatter = \"{}\"\n",
+      r.platen_speed, r.safety, name_of(r.scheme), r.damping.translation, r.damping.rotation,
+      name_of(r.precision), word_of(r.scatter));
+}
+
+double steps_over(const Recipe& recipe, const Recipe& other) {
+  const auto pace = [](const Recipe& r) { return r.safety * r.platen_speed * std::sqrt(r.mass_factor); };
+  return pace(other) / pace(recipe);
+}
+
+}  // namespace breccia

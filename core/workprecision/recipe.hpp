@@ -1,0 +1,39 @@
+// How a test is run, as far as it costs time and changes the answer: what breccia-workprecision varies.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "core/scene_options.hpp"
+#include "kernels/features.hpp"
+#include "kernels/integrate.hpp"
+
+namespace breccia {
+
+/// How the contact dashpot enters the step. MODEL section 8.
+enum class DampingScheme { explicit_dashpot, summed, capped };
+
+struct Recipe {
+  double safety = 0.8;        ///< step over the critical one
+  double platen_speed = 0.1;  ///< m/s, of each platen
+  DampingScheme scheme = DampingScheme::explicit_dashpot;
+  double mass_factor = 1;  ///< 1: true masses
+  GlobalDamping damping{0.1, 0.1};
+  Precision precision = Precision::full;
+  ScatterKind scatter = ScatterKind::private_sums;
+};
+
+std::string_view name_of(DampingScheme scheme);
+std::string_view name_of(Precision precision);
+std::string_view word_of(ScatterKind scatter);
+
+/// Everything in a line; equal if and only if the recipes are. "step 0.8, 0.1 m/s, explicit, mass 1, damping
+/// 0.1, full, private"
+std::string describe(const Recipe& recipe);
+
+/// What a case says for it, TOML.
+std::string case_lines(const Recipe& recipe);
+
+/// Steps that it takes, over those of another: by step, speed and mass alone.
+double steps_over(const Recipe& recipe, const Recipe& other);
+
+}  // namespace breccia
