@@ -48,6 +48,17 @@ std::string check_grid(const std::string& word) {
   return fmt::format("{}: {}", quote(word), suggest(word, {"small", "full"}));
 }
 
+/// CLI::Range writes small numbers as 0.000000.
+CLI::Validator between(double low, double high) {
+  return CLI::Validator(
+      [low, high](const std::string& text) {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return std::string();
+        return fmt::format("{} is not a number from {:g} to {:g}", quote(text), low, high);
+      },
+      "");
+}
+
 }  // namespace
 
 std::optional<int> read_workprecision_options(int argc, char** argv, WorkPrecisionOptions& o) {
@@ -57,7 +68,7 @@ std::optional<int> read_workprecision_options(int argc, char** argv, WorkPrecisi
   std::vector<std::string> only;
   std::vector<std::size_t> spheres;
   std::optional<int> seeds, floor;
-  std::optional<double> step, speed;
+  std::optional<double> step, speed, perturbation;
   // lists are one word with commas, so that what follows is not taken for their next value
   const auto list = [&](const std::string& name, auto& values, const std::string& meaning) {
     return app.add_option(name, values, meaning)->delimiter(',')->allow_extra_args(false);
@@ -80,12 +91,15 @@ std::optional<int> read_workprecision_options(int argc, char** argv, WorkPrecisi
   app.add_option("--floor", floor, "runs of the reference [the grid's: 3, 5]")
       ->type_name("N")
       ->check(CLI::Range(2, 1000, "2 to 1000"));
+  app.add_option("--perturbation", perturbation, "of their positions, relative [1e-12]")
+      ->type_name("X")
+      ->check(between(1e-15, 1e-3));
   app.add_option("--reference-step", step, "over the critical step [the grid's: 0.4, 0.2]")
       ->type_name("X")
-      ->check(CLI::Range(0.01, 0.95, "0.01 to 0.95"));
+      ->check(between(0.01, 0.95));
   app.add_option("--reference-speed", speed, "of each platen, m/s [the grid's: 0.05, 0.02]")
       ->type_name("V")
-      ->check(CLI::Range(1e-6, 10.0, "1e-6 to 10"));
+      ->check(between(1e-6, 10.0));
   app.add_option("--threads", o.threads,
                  fmt::format("of a timed run, and runs at a time [{} here]", o.threads))
       ->check(CLI::Range(1, 4096, "1 to 4096"));
@@ -107,6 +121,7 @@ std::optional<int> read_workprecision_options(int argc, char** argv, WorkPrecisi
   }
   if (seeds) o.grid.seeds = *seeds;
   if (floor) o.grid.shakes = *floor;
+  if (perturbation) o.grid.shake_size = *perturbation;
   if (step) o.grid.reference_safety = *step;
   if (speed) o.grid.reference_speed = *speed;
   for (const Family family : all_families())

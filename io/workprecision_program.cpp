@@ -29,6 +29,7 @@ std::string heading(const WorkPrecisionResults& r, const Case& c, std::size_t tr
         "\nonly the first of {} confinements is run: {:.4g} MPa; name another with --set "
         "test.confinement",
         c.test.confinement.size(), r.confinement * 1e-6);
+  if (!has_mixed_loop(c)) text += "\nmixed precision is not built for the bonds of this case: left out";
   if (r.threads > m.cores) text += fmt::format("\nwarning: {} threads share {} cores", r.threads, m.cores);
   return text;
 }

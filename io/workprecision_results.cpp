@@ -41,6 +41,7 @@ Json values_of(const WorkPrecisionResults& results, std::size_t k) {
   values.update(Json{{"spheres", o.spheres},
                      {"packing_seed", trial.seed},
                      {"perturbation", trial.shake},
+                     {"perturbation_size", trial.shake_size},
                      {"threads", trial.threads},
                      {"timed_alone", trial.timed},
                      {"status", status_of(o)},
@@ -66,17 +67,12 @@ Json without_nulls(Json row) {
 }
 
 Json of(const Reference& r) {
-  return {{"recipe", of(r.recipe)},
-          {"runs", r.runs},
-          {"peak_reached", r.peak_reached},
-          {"peak_deviator_Pa", r.mean.peak},
-          {"young_modulus_Pa", r.mean.young},
-          {"strain_at_peak", r.mean.strain_at_peak},
-          {"strain", r.mean.curve.strain},
-          {"stress_Pa", r.mean.curve.stress},
-          {"half_step", of(r.half_step)},
-          {"half_speed", of(r.half_speed)},
-          {"error_bar", of(r.bar)}};
+  return {{"recipe", of(r.recipe)},           {"runs", r.runs},
+          {"peak_reached", r.peak_reached},   {"peak_deviator_Pa", r.mean.peak},
+          {"young_modulus_Pa", r.mean.young}, {"strain_at_peak", r.mean.strain_at_peak},
+          {"strain", r.mean.curve.strain},    {"stress_Pa", r.mean.curve.stress},
+          {"half_step", of(r.half_step)},     {"half_speed", of(r.half_speed)},
+          {"error_bar", of(r.bar)},           {"resolution", of(r.resolution)}};
 }
 
 Json fronts_of(const Analysis& a) {

@@ -124,9 +124,9 @@ std::optional<Outcome> run_trial(
   const Case c = with_recipe(scene.c, trial.recipe);
   Outcome outcome;
   try {
-    const Assembly assembly = shaken(ready.assembly, trial.shake);
-    World w = make_world(assembly, c.materials.front(), ready.factor,
-                         world_options(c, scene.test, scene.asked, trial.threads));
+    const Assembly assembly = shaken(ready.assembly, trial.shake, trial.shake_size);
+    const WorldOptions options = world_options(c, scene.test, scene.asked, trial.threads);
+    World w = make_world(assembly, c.materials.front(), ready.factor, options);
     LoadHooks hooks;
     hooks.interrupted = stop;
     if (progress)

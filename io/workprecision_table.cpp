@@ -72,8 +72,8 @@ std::string format_reference(const WorkPrecisionResults& results) {
                         percent(value(r.floor, m))}});
   }
   return fmt::format(
-      "\n{}, {}: {} runs that differ by 1e-12 of the positions; their mean is the reference, the spread of "
-      "one the noise floor\n{}",
+      "\n{}, {}: {} runs from perturbed positions; their mean is the reference, the spread of one the noise "
+      "floor\n{}",
       words(results), describe(r.recipe), r.runs, format_columns(columns));
 }
 
@@ -143,20 +143,21 @@ std::string format_sizes(const WorkPrecisionResults& results) {
 std::string format_cheapest(const WorkPrecisionResults& results) {
   if (!results.analysis) return "";
   std::string text =
-      "\ncheapest recipes whose error and noise floor together are within a tolerance; all: peak, E, strain "
-      "at the peak and curve\n";
-  TextColumn within{"within", "%", {}}, measure{"of", "", {}}, time{"time", "s", {}},
-      recipe{"recipe", "", {}};
+      "\ncheapest recipes whose error, with what the reference leaves open, is within a tolerance; all: "
+      "peak, E, "
+      "strain at the peak and curve\n";
   std::set<std::size_t> chosen;
   for (const Cheapest& c : results.analysis->cheapest) {
     if (c.measure && *c.measure != Measure::peak) continue;  // the others are in the files
-    within.cells.push_back(fmt::format("{:g}", 100.0 * c.tolerance));
-    measure.cells.push_back(c.measure ? "peak" : "all");
-    time.cells.push_back(c.run ? four_digits(results.runs[*c.run].outcome.run_time) : "");
-    recipe.cells.push_back(c.run ? describe(results.runs[*c.run].trial.recipe) : "none");
-    if (c.run) chosen.insert(*c.run);
+    text += fmt::format("  {:>4} within {:g} %: ", c.measure ? "peak" : "all", 100.0 * c.tolerance);
+    if (!c.run) {
+      text += "none\n";
+      continue;
+    }
+    const Finished& run = results.runs[*c.run];
+    text += fmt::format("{:>8} s  {}\n", four_digits(run.outcome.run_time), describe(run.trial.recipe));
+    chosen.insert(*c.run);
   }
-  text += format_columns({within, measure, time, recipe});
   for (const std::size_t k : chosen) {
     const Recipe& r = results.runs[k].trial.recipe;
     text += fmt::format("\n# {}\n{}", describe(r), case_lines(r));

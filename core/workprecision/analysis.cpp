@@ -57,6 +57,7 @@ std::optional<Reference> reference_of(const std::vector<Finished>& finished) {
   for (std::size_t m = 0; m < r.bar.size(); ++m)  // fmax passes over what is not yet there
     r.bar[m] = std::fmax(r.floor[m] / std::sqrt(static_cast<double>(r.runs)),
                          std::fmax(std::abs(r.half_step[m]), std::abs(r.half_speed[m])));
+  for (std::size_t m = 0; m < r.bar.size(); ++m) r.resolution[m] = std::max(r.floor[m], r.bar[m]);
   return r;
 }
 
@@ -65,7 +66,7 @@ bool is_choice(const Finished& one) {
   return one.trial.purpose == Purpose::recipe && one.outcome.failure.empty();
 }
 
-/// Error of a run that counts for a choice. @param of  error, floor -> what is compared
+/// Error of a run that counts for a choice. @param of  error, resolution -> what is compared
 template <class Of>
 std::vector<Choice> choices_by(const std::vector<Finished>& finished, const Analysis& a,
                                std::optional<Measure> measure, const Of& of) {
@@ -75,7 +76,7 @@ std::vector<Choice> choices_by(const std::vector<Finished>& finished, const Anal
     for (const Measure m : all_measures) {
       if (measure && m != *measure) continue;
       const auto at = static_cast<std::size_t>(m);
-      const double error = of(std::abs(a.errors[k][at]), a.reference.floor[at]);
+      const double error = of(std::abs(a.errors[k][at]), a.reference.resolution[at]);
       worst = std::isnan(error) || std::isnan(worst) ? none : std::max(worst, error);
     }
     choices.push_back({finished[k].outcome.run_time, worst});
@@ -86,7 +87,7 @@ std::vector<Choice> choices_by(const std::vector<Finished>& finished, const Anal
 void find_fronts(const std::vector<Finished>& finished, Analysis& a) {
   for (const Measure m : all_measures) {
     const std::vector<Choice> choices = choices_by(
-        finished, a, m, [](double error, double floor) { return std::max(error, floor); });  // NaN stays
+        finished, a, m, [](double error, double limit) { return std::max(error, limit); });  // NaN stays
     a.fronts.push_back({m, pareto_front(choices)});
   }
 }
@@ -96,7 +97,7 @@ void find_cheapest(const std::vector<Finished>& finished, Analysis& a) {
   asked.insert(asked.begin(), all_measures.begin(), all_measures.end());
   for (const auto& measure : asked) {
     const std::vector<Choice> choices =
-        choices_by(finished, a, measure, [](double error, double floor) { return error + floor; });
+        choices_by(finished, a, measure, [](double error, double limit) { return error + limit; });
     for (const double tolerance : tolerances)
       a.cheapest.push_back({tolerance, measure, cheapest_within(choices, tolerance)});
   }

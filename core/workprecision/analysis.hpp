@@ -19,17 +19,19 @@ struct Reference {
   Errors half_step{}, half_speed{};  ///< against the mean; NaN until they are done
   /// The larger of the two and of floor/sqrt(runs): how well the reference itself is known
   Errors bar{};
+  /// The larger of floor and bar: errors below it say nothing
+  Errors resolution{};
 };
 
-/// Front of one measure, by run time and the larger of error and floor: below the floor no recipe is told
-/// from another. Indices into the finished runs.
+/// Front of one measure, by run time and the larger of error and resolution: below it no recipe is told from
+/// another. Indices into the finished runs.
 struct Front {
   Measure measure;
   std::vector<std::size_t> runs;
 };
 
-/// The cheapest recipe whose error and floor together are within a tolerance, so that luck alone does not
-/// choose it.
+/// The cheapest recipe whose error and the resolution together are within a tolerance, so that luck alone
+/// does not choose it.
 struct Cheapest {
   double tolerance = 0;
   std::optional<Measure> measure;  ///< nothing: all four

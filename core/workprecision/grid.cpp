@@ -7,7 +7,7 @@
 namespace breccia {
 namespace {
 
-constexpr DampingScheme expl = DampingScheme::explicit_dashpot, summed = DampingScheme::summed,
+constexpr DampingScheme expl = DampingScheme::explicit_, summed = DampingScheme::summed,
                         capped = DampingScheme::capped;
 
 // --- the table
@@ -15,6 +15,7 @@ constexpr DampingScheme expl = DampingScheme::explicit_dashpot, summed = Damping
 const Grid small_grid{.reference_safety = 0.4,
                       .reference_speed = 0.05,
                       .shakes = 3,
+                      .shake_size = 1e-12,
                       .steps = {0.4, 0.8, 0.95},
                       .speeds = {0.05, 0.1, 0.2, 0.5},
                       .masses = {2},
@@ -35,6 +36,7 @@ const Grid full_grid{
     .reference_safety = 0.2,
     .reference_speed = 0.02,
     .shakes = 5,
+    .shake_size = 1e-12,
     .steps = {0.2, 0.4, 0.8, 0.95},
     .speeds = {0.02, 0.05, 0.1, 0.2, 0.3, 0.5},
     .masses = {1.5, 2, 4},

@@ -24,7 +24,8 @@ struct Combination {
 
 struct Grid {
   double reference_safety, reference_speed;  ///< step over the critical one; m/s
-  int shakes;                                ///< runs of the reference that differ by round-off
+  int shakes;                                ///< runs of the reference that differ by a perturbation
+  double shake_size;                         ///< of every coordinate, relative
   std::vector<double> steps, speeds, masses, dampings;
   std::vector<DampingScheme> schemes;
   std::vector<Precision> precisions;

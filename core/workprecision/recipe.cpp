@@ -8,7 +8,7 @@ namespace breccia {
 
 std::string_view name_of(DampingScheme scheme) {
   switch (scheme) {
-    case DampingScheme::explicit_dashpot:
+    case DampingScheme::explicit_:
       return "explicit";
     case DampingScheme::summed:
       return "summed";

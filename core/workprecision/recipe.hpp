@@ -10,12 +10,12 @@
 namespace breccia {
 
 /// How the contact dashpot enters the step. MODEL section 8.
-enum class DampingScheme { explicit_dashpot, summed, capped };
+enum class DampingScheme { explicit_, summed, capped };
 
 struct Recipe {
   double safety = 0.8;        ///< step over the critical one
   double platen_speed = 0.1;  ///< m/s, of each platen
-  DampingScheme scheme = DampingScheme::explicit_dashpot;
+  DampingScheme scheme = DampingScheme::explicit_;
   double mass_factor = 1;  ///< 1: true masses
   GlobalDamping damping{0.1, 0.1};
   Precision precision = Precision::full;

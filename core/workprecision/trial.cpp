@@ -9,8 +9,6 @@
 namespace breccia {
 namespace {
 
-constexpr double shake_size = 1e-12;  ///< relative
-
 /// Reference runs, and its halves first: they take longest, and lanes are then filled evenly.
 void plan_reference(const PlanOptions& o, std::vector<Trial>& trials) {
   Trial trial;
@@ -25,7 +23,9 @@ void plan_reference(const PlanOptions& o, std::vector<Trial>& trials) {
   trials.push_back(trial);
   trial.purpose = Purpose::reference;
   trial.recipe = whole;
-  for (trial.shake = 0; trial.shake < o.grid.shakes; ++trial.shake) trials.push_back(trial);
+  trials.push_back(trial);
+  trial.shake_size = o.grid.shake_size;
+  for (trial.shake = 1; trial.shake < o.grid.shakes; ++trial.shake) trials.push_back(trial);
 }
 
 void plan_sizes(const PlanOptions& o, std::vector<Trial>& trials) {
@@ -72,8 +72,10 @@ std::string_view name_of(Purpose purpose) {
 std::string key_of(const Trial& t) {
   const std::string specimen =
       t.spheres ? fmt::format("{} spheres, seed {}", t.spheres, t.seed) : "the case's";
-  return fmt::format("{}; {}; shake {}; {} threads{}", describe(t.recipe), specimen, t.shake, t.threads,
-                     t.timed ? ", alone" : "");
+  const std::string shake =
+      t.shake ? fmt::format("; positions times 1 + {:g} u, seed {}", t.shake_size, t.shake) : "";
+  return fmt::format("{}; {}{}; {} thread{}{}", describe(t.recipe), specimen, shake, t.threads,
+                     t.threads == 1 ? "" : "s", t.timed ? ", alone" : "");
 }
 
 Recipe reference_recipe(const Grid& grid, const Recipe& base) {
@@ -84,7 +86,7 @@ Recipe reference_recipe(const Grid& grid, const Recipe& base) {
   return r;
 }
 
-bool can_run(const Recipe& r) { return r.scheme == DampingScheme::explicit_dashpot && r.mass_factor == 1.0; }
+bool can_run(const Recipe& r) { return r.scheme == DampingScheme::explicit_ && r.mass_factor == 1.0; }
 
 std::vector<Trial> plan_trials(const PlanOptions& o) {
   std::vector<Trial> trials, different;
@@ -107,10 +109,10 @@ std::vector<Trial> plan_trials(const PlanOptions& o) {
   return different;
 }
 
-Assembly shaken(Assembly assembly, int number) {
+Assembly shaken(Assembly assembly, int number, double size) {
   if (number == 0) return assembly;
   Random random(static_cast<std::uint64_t>(number));
-  const auto shake = [&](double& x) { x *= 1.0 + shake_size * (2.0 * uniform01(random) - 1.0); };
+  const auto shake = [&](double& x) { x *= 1.0 + size * (2.0 * uniform01(random) - 1.0); };
   ParticleTable& p = assembly.particles;
   for (std::size_t row = 0; row < p.size; ++row) {
     for (double* x : {&p.position[row].x, &p.position[row].y, &p.position[row].z}) shake(*x);

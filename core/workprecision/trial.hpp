@@ -22,6 +22,7 @@ struct Trial {
   std::size_t spheres = 0;  ///< packed for this trial; 0: the case's specimen
   std::uint64_t seed = 0;   ///< of the packing
   int shake = 0;            ///< number of the perturbation; 0: none
+  double shake_size = 0;    ///< of every coordinate, relative
   int threads = 1;
   bool timed = false;  ///< runs alone
 };
@@ -62,9 +63,8 @@ bool can_run(const Recipe& recipe);
 /// In the order in which they are run: reference and its checks, recipes, sizes. Same keys once.
 std::vector<Trial> plan_trials(const PlanOptions& options);
 
-/// The specimen with every coordinate times 1 + 1e-12 u, u uniform in [-1, 1): far above round-off, far below
-/// anything physical.
+/// The specimen with every coordinate times 1 + size u, u uniform in [-1, 1).
 /// @param number  seed; 0 leaves it as it is
-Assembly shaken(Assembly assembly, int number);
+Assembly shaken(Assembly assembly, int number, double size);
 
 }  // namespace breccia

@@ -178,7 +178,7 @@ TEST_CASE("work precision: the plan has every run once, the reference first and 
 
 TEST_CASE("work precision: floor, error bar, fronts and the cheapest recipe of a study") {
   std::vector<Finished> runs{finished(Purpose::half_speed, roof(39.9e6)),
-                             finished(Purpose::half_step, roof(40.4e6)),
+                             finished(Purpose::half_step, roof(40.16e6)),
                              finished(Purpose::reference, roof(40.2e6))};
   CHECK_FALSE(analyse(runs).has_value());  // one run has no spread
   runs.push_back(finished(Purpose::reference, roof(39.8e6)));
@@ -194,9 +194,10 @@ TEST_CASE("work precision: floor, error bar, fronts and the cheapest recipe of a
   const double floor = std::sqrt(2.0) * 0.2 / 40;
   CHECK(a.reference.mean.peak == doctest::Approx(40e6));
   CHECK(a.reference.floor[peak] == doctest::Approx(floor));
-  CHECK(a.reference.half_step[peak] == doctest::Approx(0.01));
+  CHECK(a.reference.half_step[peak] == doctest::Approx(0.004));
   CHECK(a.reference.half_speed[peak] == doctest::Approx(-0.0025));
-  CHECK(a.reference.bar[peak] == doctest::Approx(0.01));
+  CHECK(a.reference.bar[peak] == doctest::Approx(floor / std::sqrt(2.0)));
+  CHECK(a.reference.resolution[peak] == doctest::Approx(floor));
   CHECK(a.fronts[peak].runs == std::vector<std::size_t>{7, 6, 4});
   CHECK(std::isnan(a.errors[9][peak]));
   const auto cheapest = [&](double tolerance) {
@@ -209,6 +210,7 @@ TEST_CASE("work precision: floor, error bar, fronts and the cheapest recipe of a
   CHECK(cheapest(0.01) == 4);
   CHECK(a.warnings.empty());
   runs[1].outcome.readings = roof(42e6);
+  CHECK(analyse(runs)->reference.resolution[peak] == doctest::Approx(0.05));
   REQUIRE(analyse(runs)->warnings.size() == 1);
   CHECK(analyse(runs)->warnings.front().find("half the step changes its peak by +5.00 %") !=
         std::string::npos);
@@ -221,11 +223,11 @@ TEST_CASE(
   Assembly a;
   a.particles.resize(3, Features{});
   a.particles.position = {{0.1, -0.2, 0.3}, {0, 0, 0}, {1, 1, 1}};
-  const Assembly one = shaken(a, 1), two = shaken(a, 2);
+  const Assembly one = shaken(a, 1, 1e-12), two = shaken(a, 2, 1e-12);
   CHECK(one.particles.position[0].x != a.particles.position[0].x);
   CHECK(one.particles.position[0].x != two.particles.position[0].x);
-  CHECK(one.particles.position[0].x == shaken(a, 1).particles.position[0].x);
-  CHECK(shaken(a, 0).particles.position[0].x == a.particles.position[0].x);
+  CHECK(one.particles.position[0].x == shaken(a, 1, 1e-12).particles.position[0].x);
+  CHECK(shaken(a, 0, 1e-12).particles.position[0].x == a.particles.position[0].x);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 moved = one.particles.position[k] - a.particles.position[k];
     CHECK(std::abs(moved.z) <= 1e-12 * std::abs(a.particles.position[k].z) * (1 + 1e-3));
