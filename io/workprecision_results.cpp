@@ -21,7 +21,7 @@ Json of(const Recipe& r) {
           {"damping_translation", r.damping.translation},
           {"damping_rotation", r.damping.rotation},
           {"precision", name_of(r.precision)},
-          {"scatter", word_of(r.scatter)}};
+          {"scatter", name_of(r.scatter)}};
 }
 
 Json of(const Errors& errors) {

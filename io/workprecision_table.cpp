@@ -95,7 +95,7 @@ std::string format_recipes(const WorkPrecisionResults& results) {
   add("mass", "1", [&](std::size_t k) { return fmt::format("{}", recipe(k).mass_factor); });
   add("damping", "1", [&](std::size_t k) { return fmt::format("{}", recipe(k).damping.translation); });
   add("precision", "", [&](std::size_t k) { return std::string(name_of(recipe(k).precision)); });
-  add("scatter", "", [&](std::size_t k) { return std::string(word_of(recipe(k).scatter)); });
+  add("scatter", "", [&](std::size_t k) { return std::string(name_of(recipe(k).scatter)); });
   add("steps", "1", [&](std::size_t k) { return fmt::format("{}", results.runs[k].outcome.steps); });
   add("time", "s", [&](std::size_t k) { return four_digits(results.runs[k].outcome.run_time); });
   for (const Measure m : all_measures)

@@ -20,24 +20,12 @@ std::string_view name_of(DampingScheme scheme) {
 
 std::string_view name_of(Precision precision) { return precision == Precision::mixed ? "mixed" : "full"; }
 
-std::string_view word_of(ScatterKind scatter) {
-  switch (scatter) {
-    case ScatterKind::atomic:
-      return "atomic";
-    case ScatterKind::private_sums:
-      return "private";
-    case ScatterKind::gather:
-      return "gather";
-  }
-  return "?";
-}
-
 std::string describe(const Recipe& r) {
   const std::string damping = r.damping.translation == r.damping.rotation
                                   ? fmt::format("{}", r.damping.translation)
                                   : fmt::format("{}/{}", r.damping.translation, r.damping.rotation);
   return fmt::format("step {}, {} m/s, {}, mass {}, damping {}, {}, {}", r.safety, r.platen_speed,
-                     name_of(r.scheme), r.mass_factor, damping, name_of(r.precision), word_of(r.scatter));
+                     name_of(r.scheme), r.mass_factor, damping, name_of(r.precision), name_of(r.scatter));
 }
 
 std::string case_lines(const Recipe& r) {
@@ -45,7 +33,7 @@ std::string case_lines(const Recipe& r) {
       "[test]\nplaten_speed = \"{} m/s\"\n\n[time]\nsafety = {}\n\n[damping]\nscheme = \"{}\"\ntranslation = "
       "{}\nrotation = {}\n\n[run]\nprecision = \"{}\"\nscatter = \"{}\"\n",
       r.platen_speed, r.safety, name_of(r.scheme), r.damping.translation, r.damping.rotation,
-      name_of(r.precision), word_of(r.scatter));
+      name_of(r.precision), name_of(r.scatter));
 }
 
 double steps_over(const Recipe& recipe, const Recipe& other) {

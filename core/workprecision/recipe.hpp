@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/scatter_name.hpp"
 #include "core/scene_options.hpp"
 #include "kernels/features.hpp"
 #include "kernels/integrate.hpp"
@@ -24,7 +25,6 @@ struct Recipe {
 
 std::string_view name_of(DampingScheme scheme);
 std::string_view name_of(Precision precision);
-std::string_view word_of(ScatterKind scatter);
 
 /// Everything in a line; equal if and only if the recipes are. "step 0.8, 0.1 m/s, explicit, mass 1, damping
 /// 0.1, full, private"

@@ -50,8 +50,7 @@ def draw_workprecision(folder, path):
     study = WorkPrecision(folder)
     columns = 2 + bool(study.sizes)
     figure, axes = new_figure(study, 4.1 * columns + 2.8, 8.2, nrows=2, ncols=columns)
-    for panel, name in zip(axes[:, :2].ravel(), MEASURES):
-        draw_measure(panel, study, name)
+    with_floor = [draw_measure(panel, study, name) for panel, name in zip(axes[:, :2].ravel(), MEASURES)]
     if study.sizes:
         draw_sizes(axes[0][2], study, "peak")
         draw_sizes(axes[1][2], study, "strain_at_peak")
@@ -59,8 +58,9 @@ def draw_workprecision(folder, path):
     handles = [Line2D([], [], linestyle="none", color=colour, marker=marker, markersize=11 if family == "base" else 6.5, label=label)
                for family, (colour, marker, label) in FAMILIES.items() if family in used]
     handles += [Line2D([], [], color=INK, linewidth=1.2, label="Pareto front"),
-                Line2D([], [], color="#dcdcdc", linewidth=9, label="not told apart by the reference"),
-                Line2D([], [], color=SOFT, linewidth=1, linestyle=(0, (1, 2)), label="noise floor")]
+                Line2D([], [], color="#dcdcdc", linewidth=9, label="not told apart by the reference")]
+    if any(with_floor):
+        handles.append(Line2D([], [], color=INK, linewidth=1.1, linestyle=(0, (1, 2)), label="noise floor"))
     own = axes[0][-1].get_legend()
     axes[0][-1].legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1.0))
     if own:
@@ -74,7 +74,9 @@ def errors(runs, name):
 
 
 def draw_measure(axes, study, name):
-    """Points of all recipes; the front runs along the edge of the band where it cannot be told further."""
+    """Points of all recipes; the front runs along the edge of the band where it cannot be told further.
+
+    Returns whether the noise floor lies in the picture."""
     times, all_errors = np.array([run["run_time_s"] for run in study.recipes]), errors(study.recipes, name)
     axes.set(xscale="log", yscale="log")
     limit, floor = (max(values[name] or LEAST, LEAST) for values in (study.resolution, study.floor))
@@ -83,7 +85,7 @@ def draw_measure(axes, study, name):
     axes.set_ylim(100 * bottom, 100 * top)
     axes.axhspan(100 * bottom, 100 * limit, color="#dcdcdc", zorder=0.5, linewidth=0)
     if floor > bottom:
-        axes.axhline(100 * floor, color=SOFT, linewidth=1, linestyle=(0, (1, 2)), zorder=1)
+        axes.axhline(100 * floor, color=INK, linewidth=1.1, linestyle=(0, (1, 2)), zorder=1)
     if len(times):
         set_times(axes, times)
     for tolerance in TOLERANCES:
@@ -98,6 +100,7 @@ def draw_measure(axes, study, name):
     percent_scale(axes.yaxis)
     axes.set(xlabel="run time (s)", ylabel="error (%)")
     axes.set_title(f"Error of the {MEASURES[name]}")
+    return floor > bottom
 
 
 def draw_front(axes, front, name, limit):
