@@ -123,10 +123,6 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
     contacts.stiffness[k] = material.young * material.alpha *
                             (material.space == Space::plane ? 2.0 * smaller : pi * smaller * smaller) / touch;
     if (features.rotation) contacts.arm_offset[k] = 0.5 * (p.radius[lo] - p.radius[hi]) / touch;
-    if (features.contact_damping)
-      contacts.damping[k] =
-          2.0 * material.damping *
-          std::sqrt(p.mass[lo] * p.mass[hi] / (p.mass[lo] + p.mass[hi]) * contacts.stiffness[k]);
     // pairs that overlap unbonded from the start are free of stress where they are
     contacts.free_length[k] = first_list ? std::min(touch, distance) : touch;
     const std::pair<Row, Row> key = std::minmax(lo, hi);

@@ -32,13 +32,13 @@ bool search_is_due(ContactSearch& search, const ParticleTable& particles, std::u
 
 /// What a new contact is made of.
 struct ContactMaterial {
-  double young = 0;    ///< Pa
-  double alpha = 0;    ///< area factor, as of the bonds
-  double damping = 0;  ///< xi
+  double young = 0;  ///< Pa
+  double alpha = 0;  ///< area factor, as of the bonds
   Space space = Space::solid;
 };
 
-/// Makes the list of candidates anew; pairs that were in contact keep their history.
+/// Makes the list of candidates anew, their dashpots not yet set; pairs that were in contact keep their
+/// history.
 void renew_contacts(ContactSearch& search, ContactTable& contacts, const ParticleTable& particles,
                     const ContactMaterial& material, const Features& features, int threads);
 

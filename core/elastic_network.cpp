@@ -34,33 +34,32 @@ void add_spring(const ElasticNetwork::Spring& s, bool is_hi, const Eigen::Vector
 
 }  // namespace
 
-ElasticNetwork elastic_network(const ParticleTable& p, const BondTable& b, bool rotation, int threads,
+ElasticNetwork elastic_network(const ParticleTable& p, const BondTable& b, const ContactTable& c,
+                               bool rotation, int threads,
                                const std::function<SpringConstants(std::size_t)>& constants) {
   ElasticNetwork net;
   net.particles = p.size;
   net.threads = threads;
-  net.springs.resize(b.size);
+  net.springs.resize(b.size + c.size);
   net.first_entry.assign(net.particles + 1, 0);
-  for (std::size_t k = 0; k < b.size; ++k) {
-    const Row lo = b.row_lo[k], hi = b.row_hi[k];
+  for (std::size_t k = 0; k < net.springs.size(); ++k) {
+    const bool bond = k < b.size;
+    const Row lo = bond ? b.row_lo[k] : c.row_lo[k - b.size], hi = bond ? b.row_hi[k] : c.row_hi[k - b.size];
+    const Vec3 l = p.position[hi] - p.position[lo];
+    const double distance = norm(l), length = bond ? b.rest_length[k] : distance;
     const auto [normal, shear] = constants(k);
-    const double arm_ratio = rotation ? b.rest_length[k] / (p.radius[lo] + p.radius[hi]) : 0.0;
-    net.springs[k] = {lo,
-                      hi,
-                      (1.0 / b.rest_length[k]) * (p.reference_position[hi] - p.reference_position[lo]),
-                      normal,
-                      shear,
-                      arm_ratio * p.radius[lo],
-                      arm_ratio * p.radius[hi]};
+    const double arm_ratio = rotation ? length / (p.radius[lo] + p.radius[hi]) : 0.0;
+    net.springs[k] = {
+        lo, hi, (1.0 / distance) * l, normal, shear, arm_ratio * p.radius[lo], arm_ratio * p.radius[hi]};
     ++net.first_entry[lo + 1];
     ++net.first_entry[hi + 1];
   }
   for (std::size_t k = 0; k < net.particles; ++k) net.first_entry[k + 1] += net.first_entry[k];
-  net.entries.resize(2 * b.size);
+  net.entries.resize(2 * net.springs.size());
   std::vector<std::uint32_t> next(net.first_entry.begin(), net.first_entry.end() - 1);
-  for (std::size_t k = 0; k < b.size; ++k) {
-    net.entries[next[b.row_lo[k]]++] = static_cast<std::uint32_t>(k << 1);
-    net.entries[next[b.row_hi[k]]++] = static_cast<std::uint32_t>(k << 1 | 1u);
+  for (std::size_t k = 0; k < net.springs.size(); ++k) {
+    net.entries[next[net.springs[k].lo]++] = static_cast<std::uint32_t>(k << 1);
+    net.entries[next[net.springs[k].hi]++] = static_cast<std::uint32_t>(k << 1 | 1u);
   }
   return net;
 }
@@ -123,7 +122,7 @@ std::vector<double> bond_stiffness(const BondLaw& law, const ParticleTable& p, c
 ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, double shear_ratio, bool rough,
                       int threads) {
   const ParticleTable& p = a.particles;
-  const ElasticNetwork net = elastic_network(p, a.bonds, a.rotation, threads, [&](std::size_t k) {
+  const ElasticNetwork net = elastic_network(p, a.bonds, {}, a.rotation, threads, [&](std::size_t k) {
     return SpringConstants{stiffness[k], shear_ratio * stiffness[k]};
   });
   const auto n = static_cast<Eigen::Index>(6 * net.particles);

@@ -1,16 +1,18 @@
-// The bonds as a linear elastic network: the stiffness that the probe for alpha solves with, and that bounds
-// the time step.
+// Bonds and contacts as a linear elastic network: the stiffness that the probe for alpha solves with, and
+// that bounds the time step.
 #pragma once
 #include <Eigen/Core>
 #include <functional>
 #include <span>
 
 #include "core/assembly.hpp"
+#include "core/contact_table.hpp"
 #include "kernels/bond_laws.hpp"
 
 namespace breccia {
 
-/// Per bond: unit normal, stiffnesses, arms. Six unknowns a particle: displacement, then rotation.
+/// Per bond, then per contact: unit normal, stiffnesses, arms. Six unknowns a particle: displacement, then
+/// rotation.
 struct ElasticNetwork {
   struct Spring {
     Row lo, hi;
@@ -28,10 +30,12 @@ struct SpringConstants {
   double normal, shear;  ///< N/m
 };
 
+/// Springs lie where the particles are now.
 /// @param rotation   false: no arms, particles pass no torque
-/// @param constants  called with the row of each bond
-ElasticNetwork elastic_network(const ParticleTable& particles, const BondTable& bonds, bool rotation,
-                               int threads, const std::function<SpringConstants(std::size_t)>& constants);
+/// @param constants  called with the row of each bond, then with bonds.size + the row of each contact
+ElasticNetwork elastic_network(const ParticleTable& particles, const BondTable& bonds,
+                               const ContactTable& contacts, bool rotation, int threads,
+                               const std::function<SpringConstants(std::size_t)>& constants);
 
 /// The same network with other stiffnesses.
 void set_constants(ElasticNetwork& network, const std::function<SpringConstants(std::size_t)>& constants);

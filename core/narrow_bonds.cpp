@@ -21,6 +21,8 @@ NarrowBonds narrow_bonds(const BondTable& b) {
           narrowed(b.damage_normal), narrowed(b.damage_shear)};
 }
 
+void narrow_dashpots(const BondTable& b, NarrowBonds& narrow) { narrow.damping = narrowed(b.damping); }
+
 void widen_history(const NarrowBonds& narrow, std::size_t first, std::size_t last, BondTable& b) {
   const auto widen = [&](const std::vector<float>& from, std::vector<double>& to) {
     for (std::size_t k = first; k < std::min(last, from.size()); ++k) to[k] = from[k];

@@ -25,6 +25,9 @@ struct NarrowBonds {
 
 NarrowBonds narrow_bonds(const BondTable& bonds);
 
+/// Takes the dashpots anew.
+void narrow_dashpots(const BondTable& bonds, NarrowBonds& narrow);
+
 /// Copies the history of bonds [first, last) into the table.
 void widen_history(const NarrowBonds& narrow, std::size_t first, std::size_t last, BondTable& bonds);
 

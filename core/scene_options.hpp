@@ -1,5 +1,6 @@
 // Choices that a case makes and the core obeys.
 #pragma once
+#include <string_view>
 
 namespace breccia {
 
@@ -22,6 +23,14 @@ enum class ScatterKind { atomic, private_sums, gather };
 /// Which particles the loading holds. ends: layers at both ends. strips: two strips along the mantle of a
 /// disc on edge. halves: the mantle's two halves and the end layers with them, a direct shear box.
 enum class Grip { ends, strips, halves };
+
+/// How the dashpots of bonds and contacts enter the step (MODEL: time step). explicit_: c_n as it is; capped
+/// and summed hold back those that are too strong for the step.
+enum class DampingScheme { explicit_, capped, summed };
+
+inline std::string_view name_of(DampingScheme scheme) {
+  return scheme == DampingScheme::capped ? "capped" : scheme == DampingScheme::summed ? "summed" : "explicit";
+}
 
 /// What fluid pressure on a particle of the skin acts on: pi r^2, or its share of the mantle (Voronoi).
 enum class SkinWeights { radius, voronoi };

@@ -12,11 +12,12 @@ namespace {
 void search_if_due(World& w) {
   const Lap lap(w.phases, Phase::search);
   if (!search_is_due(w.search, w.particles, w.step, w.dt, w.options.threads)) return;
-  const ContactMaterial material{w.material.young_modulus, w.alpha, w.options.contact_damping, w.space};
+  const ContactMaterial material{w.material.young_modulus, w.alpha, w.space};
   renew_contacts(w.search, w.contacts, w.particles, material, w.features, w.options.threads);
   w.contact_plan =
       plan_scatter(w.options.scatter, w.options.threads, 1, w.contacts.row_lo, w.contacts.row_hi,
                    w.contacts.gid_lo, w.contacts.gid_hi, w.contacts.arm_offset, w.particles.size);
+  keep_step(w);
 }
 
 void confine(World& w) {

@@ -44,8 +44,12 @@ struct RunSummary {
   std::uint64_t broken_tension = 0;
   std::uint64_t broken_shear = 0;
   std::uint64_t steps = 0;
-  double time_step_s = 0;
+  double time_step_s = 0;         ///< at the start
+  double lowest_time_step_s = 0;  ///< the run's last: a step is never raised again
   std::optional<double> critical_time_step_s;
+  std::uint64_t step_estimates = 0;  ///< after the first, because new contacts asked for them
+  double mass_factor = 1;            ///< total mass over the true one
+  std::uint64_t scaled_particles = 0;
   double run_time_s = 0;  ///< wall time of the time loop
   /// wall time of each phase of the step, in its order
   std::vector<std::pair<std::string, double>> phases_s;

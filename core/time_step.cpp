@@ -1,154 +1,216 @@
 #include "core/time_step.hpp"
 
-#include <Spectra/SymEigsSolver.h>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/elastic_network.hpp"
+#include "core/largest_eigenvalue.hpp"
 #include "core/parallel.hpp"
 #include "kernels/integrate.hpp"
 
 namespace breccia {
 namespace {
 
-using Block = Eigen::Matrix<double, 6, 6>;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Largest eigenvalues of M^-1 K and M^-1 C of a particle whose neighbours are fixed.
-struct Alone {
-  double stiffness = 0;  ///< 1/s^2
-  double damping = 0;    ///< 1/s
-};
+/// Of the stability number in a run.
+constexpr double number_error = 0.02, number_chance = 1e-4;
 
-double largest_eigenvalue(const Block& block) {
-  return Eigen::SelfAdjointEigenSolver<Block>(block, Eigen::EigenvaluesOnly).eigenvalues()[5];
-}
-
-/// M^-1/2 K M^-1/2 of a network, as Spectra wants it.
-struct ScaledNetwork {
-  using Scalar = double;
-  ElasticNetwork network;
-  Eigen::VectorXd by_mass;  ///< 1/sqrt of mass and inertia
-  mutable Eigen::VectorXd in, out;
-
-  Eigen::Index rows() const { return by_mass.size(); }
-  Eigen::Index cols() const { return by_mass.size(); }
-  void perform_op(const double* x, double* y) const {
-    in = by_mass.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(x, rows()));
-    apply_stiffness(network, in, out);
-    Eigen::Map<Eigen::VectorXd>(y, rows()) = by_mass.cwiseProduct(out);
-  }
-};
-
-Eigen::VectorXd roots_of_masses(const ParticleTable& p, const Freedom& freedom) {
+/// 1/sqrt of mass and inertia, zero where a particle cannot move.
+Eigen::VectorXd roots_of_masses(const StepScene& s) {
+  const ParticleTable& p = s.particles;
   Eigen::VectorXd by_mass(static_cast<Eigen::Index>(6 * p.size));
   for (std::size_t row = 0; row < p.size; ++row) {
     const auto at = static_cast<Eigen::Index>(6 * row);
     by_mass.segment<3>(at).setConstant(1.0 / std::sqrt(p.mass[row]));
     by_mass.segment<3>(at + 3).setConstant(
-        1.0 / std::sqrt(inertia(freedom.inertia_factor, p.mass[row], p.radius[row])));
-    if (freedom.plane) by_mass[at + 1] = by_mass[at + 3] = by_mass[at + 5] = 0.0;
+        1.0 / std::sqrt(inertia(s.freedom.inertia_factor, p.mass[row], p.radius[row])));
+    if (s.freedom.plane) by_mass[at + 1] = by_mass[at + 3] = by_mass[at + 5] = 0.0;
   }
   return by_mass;
 }
 
-double rayleigh_quotient(const ScaledNetwork& net, const Eigen::VectorXd& x) {
-  Eigen::VectorXd y(x.size());
-  net.perform_op(x.data(), y.data());
-  return x.dot(y) / x.squaredNorm();
+/// True unless the bond is broken and too far open to be pressed.
+bool can_press(const StepScene& s, std::size_t k) {
+  if (bond_state(s.bonds, k) == BondState::intact) return true;
+  const auto& x = s.particles.position;
+  return norm(x[s.bonds.row_hi[k]] - x[s.bonds.row_lo[k]]) <= s.bonds.rest_length[k] + s.reach;
+}
+
+/// dt^2 K/4 + dt C/2 of a bond, or of a contact: rows as of an elastic network.
+SpringConstants step_constants(const StepScene& s, std::size_t k, double dt) {
+  const bool bond = k < s.bonds.size;
+  if (bond && !can_press(s, k)) return {0.0, 0.0};
+  const std::size_t c = k - s.bonds.size;
+  const double stiff = 0.25 * dt * dt * (bond ? s.bonds.stiffness[k] : s.contacts.stiffness[c]);
+  const double dashpot = bond ? bond_dashpot(s.dashpots, s.particles, s.bonds, k, dt)
+                              : contact_dashpot(s.dashpots, s.particles, s.contacts, c, dt);
+  return {stiff + 0.5 * dt * dashpot, s.shear_ratio * stiff};
+}
+
+/// M^-1/2 (dt^2 K/4 + dt C/2) M^-1/2 (1 + alpha) of a scene. One network takes the constants of all steps in
+/// turn: it is the largest thing that a run ever holds beside its tables.
+class ScaledNetwork {
+public:
+  explicit ScaledNetwork(const StepScene& scene)
+      : scene_(scene),
+        network_(elastic_network(scene.particles, scene.bonds, scene.contacts, scene.freedom.rotation,
+                                 scene.threads,
+                                 [](std::size_t) {
+                                   return SpringConstants{0.0, 0.0};
+                                 })),
+        by_mass_(roots_of_masses(scene)) {}
+
+  LargestEigenvalue number(double dt, const LanczosEffort& effort) {
+    set_constants(network_, [&](std::size_t k) { return step_constants(scene_, k, dt); });
+    const auto apply = [&](const Eigen::VectorXd& x, Eigen::VectorXd& image) {
+      in_ = (1.0 + scene_.global_damping) * by_mass_.cwiseProduct(x);
+      apply_stiffness(network_, in_, image);
+      image = by_mass_.cwiseProduct(image);
+    };
+    return largest_eigenvalue(by_mass_.size(), apply, effort, scene_.threads);
+  }
+  Eigen::Index size() const { return by_mass_.size(); }
+
+private:
+  const StepScene& scene_;
+  ElasticNetwork network_;
+  Eigen::VectorXd by_mass_, in_;
+};
+
+/// Norms of one spring's part of M^-1 K at both ends.
+std::pair<double, double> norms(const StepScene& s, Row lo, Row hi, double length,
+                                const SpringConstants& spring) {
+  const ParticleTable& p = s.particles;
+  const auto of = [&](Row end) {
+    const double arm = s.freedom.rotation ? length * p.radius[end] / (p.radius[lo] + p.radius[hi]) : 0.0;
+    const double turn = arm * arm / inertia(s.freedom.inertia_factor, p.mass[end], p.radius[end]);
+    return std::max(spring.normal / p.mass[end], spring.shear * (1.0 / p.mass[end] + turn));
+  };
+  return {of(lo), of(hi)};
+}
+
+/// A step that is surely below the undamped limit: what the search starts from.
+double first_guess(const StepScene& s) {
+  std::vector<double> sum(s.particles.size, 0.0);
+  const auto each = [&](auto&& visit) {
+    for (std::size_t k = 0; k < s.bonds.size; ++k)
+      visit(s.bonds.row_lo[k], s.bonds.row_hi[k], s.bonds.rest_length[k], s.bonds.stiffness[k]);
+    for (std::size_t k = 0; k < s.contacts.size; ++k) {
+      const Row lo = s.contacts.row_lo[k], hi = s.contacts.row_hi[k];
+      visit(lo, hi, s.particles.radius[lo] + s.particles.radius[hi], s.contacts.stiffness[k]);
+    }
+  };
+  each([&](Row lo, Row hi, double length, double k_n) {
+    const auto [at_lo, at_hi] = norms(s, lo, hi, length, {k_n, s.shear_ratio * k_n});
+    sum[lo] += at_lo;
+    sum[hi] += at_hi;
+  });
+  double largest = 0.0;
+  each([&](Row lo, Row hi, double, double) { largest = std::max(largest, sum[lo] + sum[hi]); });
+  return 2.0 / std::sqrt((1.0 + s.global_damping) * largest);
+}
+
+struct SearchEffort {
+  LanczosEffort lanczos;
+  double settled = 0;  ///< distance of the stability number from 1 at which a last secant step may end it
+};
+
+/// ln of the number over ln dt is a line of slope 1 (damping) to 2 (stiffness), or less where a scheme holds
+/// dashpots back: secants in these logarithms. Two crude values find the neighbourhood and the slope; their
+/// start vector is always the same, so that differences mean something long before the values do.
+double step_at_limit(const StepScene& s, const SearchEffort& effort) {
+  const double start = first_guess(s);
+  if (!std::isfinite(start)) return infinite;
+  ScaledNetwork network(s);
+  LanczosEffort crude = effort.lanczos;
+  crude.applications = crude.early;
+  double x = std::log(start), slope = 1.5;
+  std::optional<std::pair<double, double>> before;
+  constexpr int turns = 40;
+  for (int turn = 0; turn < turns; ++turn) {
+    const bool rough = turn < 2;
+    const LargestEigenvalue number = network.number(std::exp(x), rough ? crude : effort.lanczos);
+    const double early = std::log(number.early);
+    if (before && std::abs(x - before->first) > 1e-4)
+      slope = std::clamp((early - before->second) / (x - before->first), 0.5, 2.0);
+    before = {x, early};
+    const double beyond = std::log(number.value);
+    x -= beyond / slope;
+    if (!rough && std::abs(beyond) < effort.settled) break;
+  }
+  return std::exp(x);
+}
+
+LanczosEffort effort_of_run(std::size_t particles) {
+  return {.applications =
+              applications_for(static_cast<Eigen::Index>(6 * particles), number_error, number_chance)};
 }
 
 }  // namespace
 
-double critical_time_step(const ParticleTable& p, const BondTable& b, double shear_ratio,
-                          const Freedom& freedom, double damping, int threads) {
-  const auto spring = [&](std::size_t k) {
-    return SpringConstants{b.stiffness[k], shear_ratio * b.stiffness[k]};
-  };
-  const auto dashpot = [&](std::size_t k) {
-    return SpringConstants{b.damping.empty() ? 0.0 : b.damping[k], 0.0};
-  };
-  const double limit = 1.0 / (1.0 + damping);
-  const double proven = proven_time_step(p, b, shear_ratio, freedom, damping, threads);
-  // one network takes all constants in turn: it is the largest thing that a run ever holds beside its tables
-  ScaledNetwork net{elastic_network(p, b, freedom.rotation, threads, spring),
-                    roots_of_masses(p, freedom),
-                    {},
-                    Eigen::VectorXd(static_cast<Eigen::Index>(6 * p.size))};
-  double dt = proven;
-  Eigen::VectorXd mode;
-  constexpr int turns = 6;
-  for (int turn = 0; turn < turns; ++turn) {
-    set_constants(net.network, [&](std::size_t k) {  // dt^2 K/4 + dt C/2
-      const double stiff = 0.25 * dt * dt * b.stiffness[k];
-      return SpringConstants{stiff + 0.5 * dt * dashpot(k).normal, shear_ratio * stiff};
-    });
-    Spectra::SymEigsSolver<ScaledNetwork> solver(net, 1, std::min<Eigen::Index>(8, net.rows()));
-    if (mode.size() > 0)
-      solver.init(mode.data());
-    else
-      solver.init();
-    solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-3);
-    if (solver.info() != Spectra::CompInfo::Successful) return proven;
-    mode = solver.eigenvectors().col(0);
-    // the step at which this mode would reach the limit; it falls to the answer as the mode settles
-    set_constants(net.network, spring);
-    const double s = 0.25 * rayleigh_quotient(net, mode);
-    set_constants(net.network, dashpot);
-    const double d = 0.5 * rayleigh_quotient(net, mode);
-    const double next = 2.0 * limit / (d + std::sqrt(d * d + 4.0 * s * limit));
-    const bool settled = std::abs(next - dt) < 2e-3 * dt;
-    dt = next;
-    if (settled) break;
-  }
-  return 0.98 * dt;
+double stability_number(const StepScene& s, double dt) {
+  return ScaledNetwork(s).number(dt, effort_of_run(s.particles.size)).value;
 }
 
-double proven_time_step(const ParticleTable& p, const BondTable& b, double shear_ratio,
-                        const Freedom& freedom, double damping, int threads) {
-  std::vector<std::vector<Row>> bonds_of(p.size);
-  for (std::size_t k = 0; k < b.size; ++k) {
-    bonds_of[b.row_lo[k]].push_back(static_cast<Row>(k));
-    bonds_of[b.row_hi[k]].push_back(static_cast<Row>(k));
+double stability_number_bound(const StepScene& s, std::span<const std::size_t> contacts, double dt) {
+  std::vector<double> sum(s.particles.size, 0.0);
+  const ContactTable& c = s.contacts;
+  for (const std::size_t k : contacts) {
+    const double length = norm(s.particles.position[c.row_hi[k]] - s.particles.position[c.row_lo[k]]);
+    const auto [lo, hi] = norms(s, c.row_lo[k], c.row_hi[k], length, step_constants(s, s.bonds.size + k, dt));
+    sum[c.row_lo[k]] += lo;
+    sum[c.row_hi[k]] += hi;
   }
-  std::vector<Alone> alone(p.size);
-  for_rows(p.size, threads, [&](std::size_t first, std::size_t last) {
+  double largest = 0.0;
+  for (const std::size_t k : contacts) largest = std::max(largest, sum[c.row_lo[k]] + sum[c.row_hi[k]]);
+  return (1.0 + s.global_damping) * largest;
+}
+
+double critical_time_step(const StepScene& s) {
+  return 0.98 * step_at_limit(s, {effort_of_run(s.particles.size), 0.1});
+}
+
+double exact_time_step(const StepScene& s) {
+  return step_at_limit(s, {{.applications = 4000, .tolerance = 1e-8}, 1e-9});
+}
+
+std::vector<double> own_time_steps(const StepScene& s) {
+  using Block = Eigen::Matrix<double, 6, 6>;
+  const ElasticNetwork net =
+      elastic_network(s.particles, s.bonds, s.contacts, s.freedom.rotation, s.threads, [&](std::size_t k) {
+        const double k_n = k < s.bonds.size ? s.bonds.stiffness[k] : s.contacts.stiffness[k - s.bonds.size];
+        return SpringConstants{k_n, s.shear_ratio * k_n};
+      });
+  const Eigen::VectorXd by_mass = roots_of_masses(s);
+  std::vector<double> steps(s.particles.size);
+  for_rows(steps.size(), s.threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row) {
-      // unknowns scaled by the square roots of mass and inertia: M becomes the identity
-      const double by_mass = 1.0 / std::sqrt(p.mass[row]);
-      const double by_inertia = 1.0 / std::sqrt(inertia(freedom.inertia_factor, p.mass[row], p.radius[row]));
-      Block stiffness = Block::Zero(), damper = Block::Zero();
-      for (const Row k : bonds_of[row]) {
-        const Row other = b.row_lo[k] == row ? b.row_hi[k] : b.row_lo[k];
-        const Vec3 l = p.reference_position[other] - p.reference_position[row];
-        const Eigen::Vector3d n = Eigen::Vector3d(l.x, l.y, l.z).normalized();
-        const double arm =
-            freedom.rotation ? b.rest_length[k] * p.radius[row] / (p.radius[row] + p.radius[other]) : 0.0;
-        // elongation and slip at the contact per unit of this end's displacement and rotation
-        Eigen::Matrix<double, 3, 6> slip = Eigen::Matrix<double, 3, 6>::Zero();
-        slip.leftCols<3>() = by_mass * (Eigen::Matrix3d::Identity() - n * n.transpose());
+      Block stiffness = Block::Zero();
+      for (std::uint32_t e = net.first_entry[row]; e < net.first_entry[row + 1]; ++e) {
+        const auto& spring = net.springs[net.entries[e] >> 1];
+        const double arm = net.entries[e] & 1u ? spring.arm_hi : spring.arm_lo;
+        const Eigen::Vector3d n(spring.normal.x, spring.normal.y, spring.normal.z);
+        const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - n * n.transpose();
         Eigen::Matrix3d turn;  // theta x n
         turn << 0, n.z(), -n.y(), -n.z(), 0, n.x(), n.y(), -n.x(), 0;
-        slip.rightCols<3>() = arm * by_inertia * turn;
-        Eigen::Matrix<double, 6, 1> along = Eigen::Matrix<double, 6, 1>::Zero();
-        along.head<3>() = by_mass * n;
-        stiffness += b.stiffness[k] * (along * along.transpose() + shear_ratio * slip.transpose() * slip);
-        if (!b.damping.empty()) damper += b.damping[k] * along * along.transpose();
+        Eigen::Matrix<double, 3, 6> slip;  // at the contact, per displacement and rotation of this end
+        slip << across, arm * turn;
+        stiffness += spring.k_s * slip.transpose() * slip;
+        stiffness.topLeftCorner<3, 3>() += spring.k_n * n * n.transpose();
       }
-      alone[row] = {largest_eigenvalue(stiffness), largest_eigenvalue(damper)};
+      const auto roots = by_mass.segment<6>(static_cast<Eigen::Index>(6 * row)).asDiagonal();
+      const Block scaled = roots * stiffness * roots;
+      const double largest =
+          Eigen::SelfAdjointEigenSolver<Block>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5];
+      steps[row] = largest > 0.0 ? 2.0 / std::sqrt(largest) : infinite;
     }
   });
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < b.size; ++k) {
-    const Alone &lo = alone[b.row_lo[k]], &hi = alone[b.row_hi[k]];
-    // dt^2 s + dt d = 1/(1 + alpha)
-    const double s = 0.25 * (lo.stiffness + hi.stiffness), d = 0.5 * (lo.damping + hi.damping);
-    const double limit = 1.0 / (1.0 + damping);
-    step = std::min(step, 2.0 * limit / (d + std::sqrt(d * d + 4.0 * s * limit)));
-  }
-  return step;
+  return steps;
 }
 
 }  // namespace breccia

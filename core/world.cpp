@@ -7,7 +7,6 @@
 #include "core/elastic_network.hpp"
 #include "core/law_of_material.hpp"
 #include "core/parallel.hpp"
-#include "core/time_step.hpp"
 #include "kernels/bond_energy.hpp"
 
 namespace breccia {
@@ -33,11 +32,6 @@ void set_bond_constants(World& w) {
     b.stiffness[k] = k < b.size ? stiffness[k] : 0.0;  // none for padding
     if (!b.arm_offset.empty())
       b.arm_offset[k] = 0.5 * (p.radius[lo] - p.radius[hi]) / (p.radius[lo] + p.radius[hi]);
-    if (b.damping.empty()) continue;
-    const double reduced_mass = p.mass[lo] * p.mass[hi] / (p.mass[lo] + p.mass[hi]);
-    b.damping[k] = 2.0 * w.options.contact_damping * std::sqrt(reduced_mass * b.stiffness[k]);
-    if (w.options.paper_form)
-      b.damping[k] *= pi * w.alpha * std::min(p.radius[lo], p.radius[hi]) / b.rest_length[k];
   }
 }
 
@@ -80,12 +74,8 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.first_top = assembly.first_top;
   set_masses(w.particles, material.density, w.space);
   set_bond_constants(w);
+  choose_step(w);
   if (options.precision == Precision::mixed) w.narrow_bonds = narrow_bonds(w.bonds);
-  w.critical_dt = critical_time_step(
-      w.particles, w.bonds, w.shear_ratio,
-      {options.features.rotation, w.space == Space::plane, inertia_factor(w)},
-      std::max(options.global_damping.translation, options.global_damping.rotation), options.threads);
-  w.dt = options.safety * w.critical_dt;
   w.platens = make_platens(assembly, w.particles, options.rough_platens, material.young_modulus);
   w.confinement = make_confinement(assembly, options.skin_weights, options.rigid_skin);
   w.search = make_contact_search(assembly, options.new_contacts, 0.2 * assembly.mean_radius);

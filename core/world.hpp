@@ -6,9 +6,12 @@
 #include "core/boundary.hpp"
 #include "core/contacts.hpp"
 #include "core/crack_record.hpp"
+#include "core/dashpots.hpp"
+#include "core/mass_scaling.hpp"
 #include "core/narrow_bonds.hpp"
 #include "core/phases.hpp"
 #include "core/scatter_plan.hpp"
+#include "core/stable_step.hpp"
 #include "kernels/bond_pass.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/material.hpp"
@@ -24,8 +27,12 @@ struct WorldOptions {
   bool cracks = true;            ///< keep a record of broken bonds
   double contact_damping = 0.9;  ///< xi
   bool paper_form = false;       ///< damping times pi alpha r_c/d0 (Onate et al. 2015, eq. 30)
+  DampingScheme damping_scheme = DampingScheme::explicit_;
+  double damping_step =
+      0;  ///< s, at which the scheme is evaluated; 0: the run's own, which converges elsewhere
   GlobalDamping global_damping{0.1, 0.1};
-  double safety = 0.8;  ///< of the critical step
+  double safety = 0.8;     ///< of the critical step, at most 1
+  double mass_factor = 1;  ///< of the total mass, by which small particles may be made heavier; 1: none
   ScatterKind scatter = ScatterKind::private_sums;
   Precision precision = Precision::full;
   int threads = 1;
@@ -43,7 +50,7 @@ struct World {
   double alpha = 1;
   double young = 0, shear_ratio = 0;  ///< Pa and k_s/k_n of the bonds
   double friction = 0;                ///< of broken bonds and contacts
-  double critical_dt = 0;             ///< s, see critical_time_step
+  double critical_dt = 0;             ///< s, of the bonds; lowered when contacts ask for it
   double dt = 0;                      ///< s
   double time = 0;                    ///< s
   std::uint64_t step = 0;
@@ -57,6 +64,9 @@ struct World {
   ContactSearch search;
   ScatterPlan bond_plan, contact_plan;
   CrackRecord cracks;
+  Dashpots dashpots;
+  StepWatch step_watch;
+  MassScaling mass_scaling;
   BondPass bond_pass = nullptr;
   IntegrateFree integrate_free = nullptr;
   Phases phases;

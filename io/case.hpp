@@ -35,6 +35,7 @@ struct BondsCase {
 struct DampingCase {
   double contact = 0.9;     ///< xi, fraction of critical, along the bond
   bool paper_form = false;  ///< form = "paper": times pi alpha r_c/d0
+  DampingScheme scheme = DampingScheme::explicit_;
   double translation = 0.1, rotation = 0.1;
 };
 
@@ -64,6 +65,8 @@ struct Case {
   FeatureCase features;
   TestCase test;
   double safety = 0.8;
+  bool mass_scaling = false;
+  double mass_factor = 1.5;  ///< of the total mass, where masses are scaled
   ScatterKind scatter = ScatterKind::private_sums;
   Precision precision = Precision::full;
   int frames = 20;

@@ -36,6 +36,11 @@ Criterion criterion_of(std::string_view word) {
   return word == "coupled" ? coupled : word == "mohr-coulomb" ? mohr_coulomb : uncoupled;
 }
 
+DampingScheme scheme_of(std::string_view word) {
+  using enum DampingScheme;
+  return word == "capped" ? capped : word == "summed" ? summed : explicit_;
+}
+
 ScatterKind scatter_of(std::string_view word) {
   using enum ScatterKind;
   return word == "atomic" ? atomic : word == "gather" ? gather : private_sums;
@@ -304,10 +309,9 @@ constexpr std::array keys{
     Key{.name = "damping.scheme",
         .kind = Kind::word,
         .standard = "explicit",
-        .words = "explicit",
-        .later = "capped summed",
-        .meaning = "how contact damping enters the step",
-        .store = [](C&, const R&) {}},
+        .words = "explicit capped summed",
+        .meaning = "capped, summed: dashpots held back where they shorten the step; strengths change by a few %",
+        .store = [](C& c, const R& r) { c.damping.scheme = scheme_of(r.word); }},
     Key{.name = "damping.translation",
         .standard = "0.1",
         .range = from_to_below(0, 1),
@@ -409,9 +413,13 @@ constexpr std::array keys{
     Key{.name = "time.mass_scaling",
         .kind = Kind::boolean,
         .standard = "false",
-        .later = "true",
-        .meaning = "heavier small spheres, a larger step",
-        .store = [](C&, const R&) {}},
+        .meaning = "heavier small spheres, a larger step; for quasi-static tests",
+        .store = [](C& c, const R& r) { c.mass_scaling = r.flag; }},
+    Key{.name = "time.mass_factor",
+        .standard = "1.5",
+        .range = more_than(1),
+        .meaning = "with mass_scaling: total mass over the true one, at most",
+        .store = [](C& c, const R& r) { c.mass_factor = r.number; }},
     Key{.name = "run.scatter",
         .kind = Kind::word,
         .standard = "private",

@@ -43,7 +43,7 @@ std::string explain(const World& w) {
   std::string text = "features\n";
   text += feature_line("rotation", asked.rotation, built.rotation, "spins and torques");
   text += feature_line("contact damping", asked.contact_damping, built.contact_damping,
-                       "viscous force along each bond");
+                       fmt::format("viscous force along each bond, {}", name_of(w.options.damping_scheme)));
   text +=
       feature_line("plasticity", asked.plasticity, built.plasticity, "three-slope envelope in compression");
   text += feature_line(

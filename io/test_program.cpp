@@ -52,8 +52,10 @@ WorldOptions world_options(const Case& c, const std::string& test, const Feature
   o.cracks = c.cracks;
   o.contact_damping = c.damping.contact;
   o.paper_form = c.damping.paper_form;
+  o.damping_scheme = c.damping.scheme;
   o.global_damping = {c.damping.translation, c.damping.rotation};
   o.safety = c.safety;
+  if (c.mass_scaling) o.mass_factor = c.mass_factor;
   o.scatter = c.scatter;
   o.precision = c.precision;
   o.threads = threads;
@@ -82,8 +84,18 @@ std::string fracture_energies(const World& w, const Law& law) {
                      shear / area);
 }
 
+std::string scaled_masses(const World& w) {
+  if (w.mass_scaling.scaled == 0) return {};
+  return fmt::format("; {} spheres made heavier, {:.3f} of the true mass", w.mass_scaling.scaled,
+                     w.mass_scaling.factor);
+}
+
 std::string step_line(const World& w, double safety) {
-  return fmt::format("step {:.4g} s, {:.3g} of the critical {:.4g} s; {}", w.dt, safety, w.critical_dt,
+  return fmt::format("step {:.4g} s, {:.3g} of the critical {:.4g} s{}{}; {}", w.dt, safety, w.critical_dt,
+                     w.options.damping_scheme == DampingScheme::explicit_
+                         ? ""
+                         : fmt::format(", {} dashpots", name_of(w.options.damping_scheme)),
+                     scaled_masses(w),
                      w.options.features.breakage
                          ? std::visit([&](const auto& law) { return fracture_energies(w, law); }, w.law)
                          : "unbreakable bonds");

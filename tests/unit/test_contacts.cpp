@@ -186,7 +186,7 @@ TEST_CASE("contacts: a new list keeps the friction and free length of pairs in c
   }
   w.particles.position[3] = {0.0305, 0, 0};  // a new neighbour, so that rows shift
   renew_contacts(w.search, w.contacts, w.particles,
-                 {w.material.young_modulus, w.alpha, w.options.contact_damping}, w.options.features, 1);
+                 {w.material.young_modulus, w.alpha}, w.options.features, 1);
   CHECK(w.contacts.size > before.size());
   std::size_t kept = 0;
   for (std::size_t k = 0; k < w.contacts.size; ++k) {

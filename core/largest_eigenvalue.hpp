@@ -1,0 +1,34 @@
+// The largest eigenvalue of a symmetric matrix that is only ever applied to vectors.
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+
+namespace breccia {
+
+struct LargestEigenvalue {
+  double value = 0;  ///< from below
+  double early = 0;  ///< what it was after few applications, for differences between similar matrices
+  int applications = 0;
+};
+
+struct LanczosEffort {
+  int applications = 0;
+  double tolerance = 0;  ///< of the residual over the value at which it may end sooner; 0: never
+  int early = 12;        ///< applications after which `early` is taken
+};
+
+/// Lanczos iteration from a random vector, three vectors in all: nothing is orthogonalised again, which makes
+/// copies of eigenvalues but moves none (Paige 1976).
+/// @param size   rows; of those that `apply` leaves at zero nothing is seen
+/// @param apply  image = A x, A symmetric, no eigenvalue below zero
+LargestEigenvalue largest_eigenvalue(
+    Eigen::Index size, const std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& image)>& apply,
+    const LanczosEffort& effort, int threads);
+
+/// Applications after which the value is short by more than the fraction `error` with a probability below
+/// `chance`, whatever the spectrum is, of a random vector: 1.648 sqrt(n) exp(-sqrt(error) (2 k - 1))
+/// (Kuczynski and Wozniakowski 1992, theorem 4.2). A mode of one light particle, or of one cluster apart from
+/// the others, is no exception.
+int applications_for(Eigen::Index size, double error, double chance);
+
+}  // namespace breccia
