@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <mutex>
 
@@ -19,8 +18,7 @@
 namespace breccia {
 namespace {
 
-std::string heading(const WorkPrecisionResults& r, const Case& c, const WorkPrecisionOptions& options,
-                    std::size_t trials) {
+std::string heading(const WorkPrecisionResults& r, const Case& c, std::size_t trials) {
   const Machine& m = r.machine;
   std::string text = fmt::format(
       "{} runs of breccia-{}; the case's recipe: {}\n{}, {} of {} cores, {}, {}; load average {:.2f}", trials,
@@ -31,10 +29,6 @@ std::string heading(const WorkPrecisionResults& r, const Case& c, const WorkPrec
         "\nonly the first of {} confinements is run: {:.4g} MPa; name another with --set "
         "test.confinement",
         c.test.confinement.size(), r.confinement * 1e-6);
-  const std::vector<GridRecipe> all = grid_recipes(options.grid, r.base, options.families);
-  if (const auto n = std::count_if(all.begin(), all.end(), [](const auto& g) { return !can_run(g.recipe); }))
-    text += fmt::format(
-        "\n{} recipes are left out: summed and capped dashpots and mass scaling are not in this version", n);
   if (!has_mixed_loop(c)) text += "\nmixed precision is not built for the bonds of this case: left out";
   if (r.threads > m.cores) text += fmt::format("\nwarning: {} threads share {} cores", r.threads, m.cores);
   return text;
@@ -168,7 +162,7 @@ void run_study(const WorkPrecisionOptions& options) {
   results.base = recipe_of(c);
   const std::vector<Trial> trials =
       plan_trials({options.grid, results.base, options.families, options.threads, has_mixed_loop(c)});
-  say(progress, heading(results, c, options, trials.size()));
+  say(progress, heading(results, c, trials.size()));
   if (!options.dry_run) {
     if (options.resume)
       make_folder(options.out);

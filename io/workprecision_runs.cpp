@@ -24,6 +24,9 @@ Case with_recipe(const Case& c, const Recipe& r) {
   Case with = c;
   with.safety = r.safety;
   with.test.platen_speed = r.platen_speed;
+  with.damping.scheme = r.scheme;
+  with.mass_scaling = r.mass_factor > 1.0;
+  with.mass_factor = r.mass_factor;
   with.damping.translation = r.damping.translation;
   with.damping.rotation = r.damping.rotation;
   with.precision = r.precision;
@@ -97,6 +100,8 @@ Recipe recipe_of(const Case& c) {
   Recipe r;
   r.safety = c.safety;
   r.platen_speed = c.test.platen_speed;
+  r.scheme = c.damping.scheme;
+  if (c.mass_scaling) r.mass_factor = c.mass_factor;
   r.damping = {c.damping.translation, c.damping.rotation};
   r.precision = c.precision;
   r.scatter = c.scatter;

@@ -26,7 +26,7 @@ struct Grid {
   double reference_safety, reference_speed;  ///< step over the critical one; m/s
   int shakes;                                ///< runs of the reference that differ by a perturbation
   double shake_size;                         ///< of every coordinate, relative
-  std::vector<double> steps, speeds, masses, dampings;
+  std::vector<double> steps, speeds, masses, dampings;  ///< masses: factors of the total mass
   std::vector<DampingScheme> schemes;
   std::vector<Precision> precisions;
   std::vector<ScatterKind> scatters;

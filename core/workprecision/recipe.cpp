@@ -2,21 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace breccia {
-
-std::string_view name_of(DampingScheme scheme) {
-  switch (scheme) {
-    case DampingScheme::explicit_:
-      return "explicit";
-    case DampingScheme::summed:
-      return "summed";
-    case DampingScheme::capped:
-      return "capped";
-  }
-  return "?";
-}
 
 std::string_view name_of(Precision precision) { return precision == Precision::mixed ? "mixed" : "full"; }
 
@@ -29,15 +15,19 @@ std::string describe(const Recipe& r) {
 }
 
 std::string case_lines(const Recipe& r) {
+  const std::string masses = r.mass_factor > 1.0
+                                 ? fmt::format("mass_scaling = true\nmass_factor = {}", r.mass_factor)
+                                 : "mass_scaling = false";
   return fmt::format(
-      "[test]\nplaten_speed = \"{} m/s\"\n\n[time]\nsafety = {}\n\n[damping]\nscheme = \"{}\"\ntranslation = "
+      "[test]\nplaten_speed = \"{} m/s\"\n\n[time]\nsafety = {}\n{}\n\n[damping]\nscheme = "
+      "\"{}\"\ntranslation = "
       "{}\nrotation = {}\n\n[run]\nprecision = \"{}\"\nscatter = \"{}\"\n",
-      r.platen_speed, r.safety, name_of(r.scheme), r.damping.translation, r.damping.rotation,
+      r.platen_speed, r.safety, masses, name_of(r.scheme), r.damping.translation, r.damping.rotation,
       name_of(r.precision), name_of(r.scatter));
 }
 
 double steps_over(const Recipe& recipe, const Recipe& other) {
-  const auto pace = [](const Recipe& r) { return r.safety * r.platen_speed * std::sqrt(r.mass_factor); };
+  const auto pace = [](const Recipe& r) { return r.safety * r.platen_speed; };
   return pace(other) / pace(recipe);
 }
 

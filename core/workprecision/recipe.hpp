@@ -10,20 +10,16 @@
 
 namespace breccia {
 
-/// How the contact dashpot enters the step. MODEL section 8.
-enum class DampingScheme { explicit_, summed, capped };
-
 struct Recipe {
   double safety = 0.8;        ///< step over the critical one
   double platen_speed = 0.1;  ///< m/s, of each platen
   DampingScheme scheme = DampingScheme::explicit_;
-  double mass_factor = 1;  ///< 1: true masses
+  double mass_factor = 1;  ///< of the total mass; 1: true masses
   GlobalDamping damping{0.1, 0.1};
   Precision precision = Precision::full;
   ScatterKind scatter = ScatterKind::private_sums;
 };
 
-std::string_view name_of(DampingScheme scheme);
 std::string_view name_of(Precision precision);
 
 /// Everything in a line; equal if and only if the recipes are. "step 0.8, 0.1 m/s, explicit, mass 1, damping
@@ -33,7 +29,8 @@ std::string describe(const Recipe& recipe);
 /// What a case says for it, TOML.
 std::string case_lines(const Recipe& recipe);
 
-/// Steps that it takes, over those of another: by step, speed and mass alone.
+/// Steps that it takes, over those of another: by step and speed alone. What schemes and heavier masses win
+/// depends on the specimen.
 double steps_over(const Recipe& recipe, const Recipe& other);
 
 }  // namespace breccia

@@ -86,13 +86,11 @@ Recipe reference_recipe(const Grid& grid, const Recipe& base) {
   return r;
 }
 
-bool can_run(const Recipe& r) { return r.scheme == DampingScheme::explicit_ && r.mass_factor == 1.0; }
-
 std::vector<Trial> plan_trials(const PlanOptions& o) {
   std::vector<Trial> trials, different;
   plan_reference(o, trials);
   for (const GridRecipe& one : grid_recipes(o.grid, o.base, o.families)) {
-    if (!can_run(one.recipe) || (one.recipe.precision == Precision::mixed && !o.mixed)) continue;
+    if (one.recipe.precision == Precision::mixed && !o.mixed) continue;
     Trial trial;
     trial.family = one.family;
     trial.recipe = one.recipe;

@@ -57,9 +57,6 @@ struct PlanOptions {
 /// The reference: explicit dashpots, true masses, full precision, the base's global damping.
 Recipe reference_recipe(const Grid& grid, const Recipe& base);
 
-/// True for a recipe that this version can run.
-bool can_run(const Recipe& recipe);
-
 /// In the order in which they are run: reference and its checks, recipes, sizes. Same keys once.
 std::vector<Trial> plan_trials(const PlanOptions& options);
 

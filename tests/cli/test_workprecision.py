@@ -204,7 +204,7 @@ class Options(ProgramTest):
         case = self.write("pack.toml", UCS.replace('file = "specimen.csv"', "pack = { spheres = 200 }"))
         result = run("workprecision", case, "--dry-run", "--set", 'test.confinement=["5 MPa", "10 MPa"]', "--out", self.out)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
-        for word in ("breccia-triaxial", "only the first of 2 confinements", "half_speed", "combinations", "70000 spheres, seed 1", "times 1 + 1e-12 u"):
+        for word in ("breccia-triaxial", "only the first of 2 confinements", "half_speed", "combinations", "70000 spheres, seed 1", "summed, mass 4,", "times 1 + 1e-12 u"):
             self.assertIn(word, result.stdout)
         self.assertFalse(self.out.exists())
 

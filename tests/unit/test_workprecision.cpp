@@ -156,7 +156,6 @@ TEST_CASE("work precision: the plan has every run once, the reference first and 
     int references = 0;
     for (const Trial& t : trials) {
       CHECK(keys.insert(key_of(t)).second);
-      CHECK(can_run(t.recipe));
       if (t.purpose == Purpose::reference) {
         CHECK(t.recipe.safety == options.grid.reference_safety);
         CHECK(t.recipe.platen_speed == options.grid.reference_speed);
@@ -174,6 +173,20 @@ TEST_CASE("work precision: the plan has every run once, the reference first and 
     for (const Trial& t : plan_trials(options))
       CHECK((t.purpose != Purpose::recipe || t.family == Family::base || t.recipe.safety == 0.8));
   }
+}
+
+TEST_CASE(
+    "work precision: a recipe is told by its line, and its reference has neither scheme nor scaled masses") {
+  Recipe base;
+  base.scheme = DampingScheme::summed;
+  base.mass_factor = 2;
+  base.damping = {0.2, 0.1};
+  CHECK(describe(base) == "step 0.8, 0.1 m/s, summed, mass 2, damping 0.2/0.1, full, private");
+  CHECK(case_lines(base).find("mass_scaling = true\nmass_factor = 2\n") != std::string::npos);
+  const Recipe reference = reference_recipe(grid_of(GridSize::full), base);
+  CHECK(describe(reference) == "step 0.2, 0.02 m/s, explicit, mass 1, damping 0.2/0.1, full, private");
+  CHECK(case_lines(reference).find("mass_scaling = false\n") != std::string::npos);
+  CHECK(steps_over(reference, base) == doctest::Approx(20));
 }
 
 TEST_CASE("work precision: floor, error bar, fronts and the cheapest recipe of a study") {
