@@ -25,9 +25,9 @@ struct Word {
 };
 constexpr std::array<Word<ScalingStudy>, 2> studies{
     {{"strong", ScalingStudy::strong}, {"weak", ScalingStudy::weak}}};
-constexpr std::array<Word<ScatterKind>, 3> scatters{{{"private", ScatterKind::private_sums},
-                                                     {"gather", ScatterKind::gather},
-                                                     {"atomic", ScatterKind::atomic}}};
+constexpr Word<ScatterKind> word_of(ScatterKind kind) { return {name_of(kind), kind}; }
+constexpr std::array<Word<ScatterKind>, 3> scatters{
+    word_of(ScatterKind::private_sums), word_of(ScatterKind::gather), word_of(ScatterKind::atomic)};
 
 template <class Words, class Value>
 std::string_view word_for(const Words& words, Value value) {
@@ -85,7 +85,6 @@ DIR/scaling.json  the same with every block, the machine, and the published time
 }  // namespace
 
 std::string_view name_of(ScalingStudy study) { return word_for(studies, study); }
-std::string_view name_of(ScatterKind scatter) { return word_for(scatters, scatter); }
 
 std::optional<int> read_scaling_options(int argc, char** argv, ScalingOptions& o) {
   CLI::App app(about, "breccia-scaling");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scaling.hpp"
+#include "core/scatter_name.hpp"
 
 namespace breccia {
 
@@ -29,6 +30,5 @@ std::optional<int> read_scaling_options(int argc, char** argv, ScalingOptions& o
 std::vector<ScalingPoint> scaling_points(const ScalingOptions& options);
 
 std::string_view name_of(ScalingStudy study);
-std::string_view name_of(ScatterKind scatter);
 
 }  // namespace breccia

@@ -27,6 +27,8 @@ Loading loading_of(const std::string& test) {
   return Loading::compression;
 }
 
+}  // namespace
+
 LoadTest load_test(const Case& c, const std::string& test, std::size_t run) {
   LoadTest load;
   load.loading = loading_of(test);
@@ -60,6 +62,8 @@ WorldOptions world_options(const Case& c, const std::string& test, const Feature
   o.threads = threads;
   return o;
 }
+
+namespace {
 
 /// Energy per area that the bonds need to part, mean over the bonds; the law's delta fixes it (MODEL section
 /// 3).
