@@ -3,9 +3,15 @@
 #pragma once
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/world.hpp"
 
 namespace breccia {
+
+/// More kinetic and stored energy than was put in.
+struct EnergyFromNowhere : SimulationBroke {
+  using SimulationBroke::SimulationBroke;
+};
 
 /// What is remembered from look to look.
 struct Guards {
@@ -33,7 +39,8 @@ double fastest_wave(const World& world);
 
 /// How many times the energy that can be there may seem to be there. Velocities stand half a step from the
 /// places, so that the sum of a mode of frequency w wavers between 1/(1 + s) and 1/(1 - s) of what it is, s =
-/// w dt/2: less than (1 + s)/(1 - s) with s the step over the limit, and half as much again.
+/// w dt/2: a ratio of (1 + s)/(1 - s) with s the step over the limit, here 2 % below it, and half as much
+/// again. Growth is exponential, so that a larger factor costs a blow-up a few steps more.
 double allowed_excess(const World& world);
 
 /// Looks at the world after a step. The energy check is a balance whose every loss is allowed: kinetic and

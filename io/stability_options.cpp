@@ -21,7 +21,7 @@ const std::string results = R"(
 network    the bonds without any loss, shaken once: energy error and drift
 damped     the same with contact damping
 law        the whole law under the scene's own loading: the peak, and how it changes with the step
-limit      of the step, for each network to nine digits; critical_time_step is held against it
+limit      of the step, for each network to seven digits; critical_time_step is held against it
 
 DIR/stability.csv   a line for each scene, part and fraction of the limit
 DIR/stability.json  the same with every cause, and the machine

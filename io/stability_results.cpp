@@ -28,6 +28,7 @@ Json values_of(const StabilityRun& r) {
           {"estimate_over_limit", number(r.estimate_dt / r.exact_dt)},
           {"energy_error", number(r.energy_error)},
           {"drift", number(r.drift)},
+          {"broken_bonds", number(r.broken)},
           {"peak_stress_Pa", number(r.peak)},
           {"peak_change", number(r.peak_change)},
           {"amiss", is_amiss(r)},

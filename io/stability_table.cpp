@@ -54,6 +54,8 @@ std::string format_stability_table(const StabilityResults& results) {
   });
   add("energy error", "1", [](const auto& r) { return short_number(r.energy_error); });
   add("drift", "1", [](const auto& r) { return short_number(r.drift, "+"); });
+  add("broken", "1",
+      [](const auto& r) { return std::isfinite(r.broken) ? fmt::format("{}", r.broken) : std::string(); });
   add("peak", "MPa", [](const auto& r) {
     return std::isfinite(r.peak) ? fmt::format("{:.4g}", 1e-6 * r.peak) : std::string();
   });

@@ -53,8 +53,8 @@ double exact_time_step(const World& w) {
     return left.llt().info() == Eigen::Success;
   };
   double low = 0.0, high = w.critical_dt;
-  while (is_stable(high)) low = high, high *= 2.0;
-  while (high - low > 1e-9 * high) {
+  while (is_stable(high)) low = high, high *= 1.05;
+  while (high - low > 1e-7 * high) {
     const double middle = 0.5 * (low + high);
     (is_stable(middle) ? low : high) = middle;
   }

@@ -1,4 +1,4 @@
-// The largest stable step of a small network to nine digits, in another way than time_step.hpp: what its
+// The largest stable step of a small network to seven digits, in another way than time_step.hpp: what its
 // estimate is held against.
 #pragma once
 #include "core/world.hpp"

@@ -7,11 +7,11 @@
 
 namespace breccia {
 
-/// stable: ran to its end, energy bounded (a law: see below). blew_up: its energy grew, and a guard stopped
-/// it. stopped: a guard stopped a law's run, or a scene that no law can hold together. refused: it was never
-/// begun. And what must not be: unnoticed, a run that blew up and went on, or a law's run beyond the limit
-/// whose peak is not that of small steps and that nothing stopped; false_alarm: a guard stopped a network
-/// whose energy was bounded.
+/// stable: ran to its end, and energy stayed bounded. blew_up: a guard stopped it, and without guards its
+/// energy leaves all bounds. stopped: a guard stopped a law's run, or a network for something else than its
+/// energy. refused: it was never begun. And what must not be: unnoticed, a run that left all bounds and was
+/// not stopped, or a law's run beyond the limit whose peak is not that of small steps; false_alarm: a network
+/// whose energy is bounded was stopped for it.
 enum class Verdict { stable, blew_up, stopped, refused, unnoticed, false_alarm };
 inline constexpr std::string_view name_of(Verdict verdict) {
   constexpr std::string_view names[] = {"stable",  "blew up",   "stopped",
@@ -43,8 +43,9 @@ struct StabilityRun {
   std::string cause;           ///< of a refusal or stop
   std::uint64_t steps = 0;     ///< done
   double energy_error = none;  ///< largest departure of the energy from its start, over it; without loss only
-  double drift = none;  ///< mean of the last tenth less the start, over it: of the energy; of a rest, stress
-  double peak = none;   ///< Pa, of a test
+  double drift = none;   ///< mean of the last tenth less the start, over it: of the energy; of a rest, stress
+  double broken = none;  ///< bonds, of a test
+  double peak = none;    ///< Pa, of a test
   double peak_change = none;  ///< of a test, from that of the smallest step
 };
 

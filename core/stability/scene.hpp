@@ -44,7 +44,7 @@ struct StabilityScene {
 /// Every scene, the plain one first.
 const std::vector<StabilityScene>& stability_scenes();
 
-/// The plain scene: 120 spheres of the material in a cylinder 50 x 100 mm, pressed to failure.
+/// The plain scene: 100 spheres of the material in a cylinder 50 x 100 mm, pressed to failure.
 StabilitySetup plain_setup(const Material& material);
 
 }  // namespace breccia

@@ -12,7 +12,7 @@ void only_spheres(StabilitySetup& s, std::size_t count) { s.specimen = stack_of(
 
 StabilitySetup plain_setup(const Material& material) {
   StabilitySetup s;
-  s.specimen = stability_packing(120);
+  s.specimen = stability_packing(100);
   s.body = stability_body;
   s.material = material;
   s.options.cracks = false;
@@ -31,8 +31,8 @@ const std::vector<StabilityScene>& stability_scenes() {
        {network, dashpots, law},
        [](S& s) { s.change = [](World& w) { soften_lower_half(w, 1e-6); }; }},
       {"masses-1e12",
-       "masses over 12 decades",
-       {network, dashpots, law},
+       "masses over 12 decades (a test would take 1e6 steps and more)",
+       {network, dashpots},
        [](S& s) { s.change = [](World& w) { spread_masses(w, 12.0); }; }},
       {"radius-20",
        "40 spheres a 20th as large",

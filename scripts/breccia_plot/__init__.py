@@ -8,6 +8,7 @@ from .layouts import draw_layouts
 from .scaling import draw_scaling
 from .series import read_series
 from .specimen import draw_specimen
+from .stability import draw_stability
 
 PICTURES = {
     "curves.png": draw_curves,
@@ -15,4 +16,4 @@ PICTURES = {
     "specimen.png": draw_specimen,
     "energy.png": draw_energy,
 }
-STUDIES = {"scaling": draw_scaling, "layouts": draw_layouts}
+STUDIES = {"scaling": draw_scaling, "layouts": draw_layouts, "stability": draw_stability}

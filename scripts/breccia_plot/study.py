@@ -1,4 +1,4 @@
-"""What breccia-scaling and breccia-layouts leave: a JSON file with runs, machine and whatever the study adds."""
+"""What breccia-scaling, breccia-layouts and breccia-stability leave: a JSON file with runs, machine and whatever the study adds."""
 import json
 
 from .errors import BadInput
