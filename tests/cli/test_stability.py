@@ -85,6 +85,19 @@ class Stability(ProgramTest):
             self.check_one_line(result, 2, "stability.json")
 
 
+class Guard(ProgramTest):
+    def test_nested_spheres_end_a_test_with_their_names(self):
+        """Centres 1e-11 m apart: the direction of such a bond is noise as soon as anything moves."""
+        lines = (self.work / "specimen.csv").read_text().splitlines()
+        spheres = [line.split(",") for line in lines if line[:1].isdigit()][:8]
+        nested = [f"{1000 + k},{float(x) + 1e-11!r},{y},{z},{float(r) / 2!r}" for k, (_, x, y, z, r, *_) in enumerate(spheres)]
+        (self.work / "specimen.csv").write_text("\n".join(lines + nested) + "\n")
+        result = run("ucs", self.case, "--quiet", "--out", self.out)
+        self.check_one_line(result, 3, "breccia-ucs: at ", "bond ", "right angle", "nested", "take one away", "time.safety = 0.08")
+        rows = (self.out / "curve-0.csv").read_text().splitlines()
+        self.assertGreater(len(rows), 10)  # what there was is kept
+
+
 class Options(ProgramTest):
     def refused(self, *words, options):
         result = run("stability", *options, "--out", self.out)
