@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "core/error.hpp"
+
 namespace breccia {
 namespace {
 
@@ -20,12 +22,12 @@ double turn_of(const ParticleTable& p, Row lo, Row hi, double dt) {
   return step / norm(p.position[hi] - p.position[lo]);
 }
 
-/// Of all bonds at a particle the one whose ends move most against each other.
+/// Of all bonds that hold a particle the one whose ends move most against each other.
 std::optional<Link> busiest_bond(const World& w, Row row) {
   std::optional<Link> found;
   const BondTable& b = w.bonds;
   for (std::size_t k = 0; k < b.size; ++k) {
-    if (b.row_lo[k] != row && b.row_hi[k] != row) continue;
+    if ((b.row_lo[k] != row && b.row_hi[k] != row) || bond_state(b, k) != BondState::intact) continue;
     const double turn = turn_of(w.particles, b.row_lo[k], b.row_hi[k], w.dt);
     if (!found || turn > found->turn || std::isnan(turn)) found = Link{b.gid_lo[k], b.gid_hi[k], turn};
   }
@@ -68,12 +70,35 @@ std::string advice(const World& w, Row row) {
   return fmt::format("likely cause: the step is too large for this state; try time.safety = {:.2g}", lower);
 }
 
-template <class Broke = SimulationBroke>
-[[noreturn]] void stop(const World& w, const std::string& what, Row row) {
+[[noreturn]] void stop(const World& w, const std::string& what, Row row, const std::string& to_do) {
   const auto bond = busiest_bond(w, row);
   const std::string at =
       bond ? fmt::format("its bond {}-{} moves most", bond->lo, bond->hi) : std::string("no bond holds it");
-  fail<Broke>("at {:.6g} s (step {}) {}; {}; {}", w.time, w.step, what, at, advice(w, row));
+  fail<SimulationBroke>("at {:.6g} s (step {}) {}; {}; {}", w.time, w.step, what, at, to_do);
+}
+[[noreturn]] void stop(const World& w, const std::string& what, Row row) {
+  stop(w, what, row, advice(w, row));
+}
+
+/// So far from the origin places are rounded to more than a step moves them, while velocities are not: shear
+/// forces, which are summed from velocities, then grow without a motion.
+std::optional<std::string> advice_far_away(const Guards& g) {
+  if (g.farthest < 1e5 * g.size) return std::nullopt;
+  return fmt::format(
+      "likely cause: {:.2g} m from the origin places are rounded to {:.1g} m; move the specimen to the "
+      "origin",
+      g.farthest, std::numeric_limits<double>::epsilon() * g.farthest);
+}
+
+/// For a particle that has left, with a step that was right.
+std::string advice_for_lost(const World& w, Row row) {
+  if (w.dt > w.critical_dt || demand_of_contacts(w, row) > 0.5) return advice(w, row);
+  if (w.confinement.pressure > 0.0)
+    return fmt::format("likely cause: pressed out between the others; try test.confinement = \"{:.3g} MPa\"",
+                       0.5e-6 * w.confinement.pressure);
+  const double strain = std::abs(approach(w.platens)) / w.body.height;
+  return fmt::format("likely cause: torn off and thrown; end the test sooner, try test.stop_strain = {:.2g}",
+                     strain > 0.0 ? 0.5 * strain : 0.01);
 }
 
 bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -153,7 +178,7 @@ void check_energy(Guards& g, const World& w, double kinetic, double stored) {
         fmt::format("energy comes from nowhere: {:.3g} J kinetic and stored, where {:.3g} J are explained by "
                     "what was there and the work since; particle {} has most of it, {:.3g} m/s",
                     there, g.explained, w.particles.gid[row], norm(w.particles.velocity[row])),
-        row);
+        row, advice_far_away(g).value_or(advice(w, row)));
   }
   g.explained = std::min(g.explained, there);
   g.highest = std::max(g.highest, there);
@@ -163,11 +188,10 @@ void check_speeds(const Guards& g, const World& w) {
   const ParticleTable& p = w.particles;
   for (Row k = 0; k < p.size; ++k)
     if (const double speed = norm(p.velocity[k]); speed > g.fastest)
-      stop<EnergyFromNowhere>(
-          w,
-          fmt::format("particle {} moves at {:.3g} m/s, faster than a wave in the stiffest bond, {:.3g} m/s",
-                      p.gid[k], speed, g.fastest),
-          k);
+      stop(w,
+           fmt::format("particle {} moves at {:.3g} m/s, faster than a wave in the stiffest bond, {:.3g} m/s",
+                       p.gid[k], speed, g.fastest),
+           k);
 }
 
 /// A bond's shear force is carried along by the turn of its normal from step to step, which a turn beyond a
@@ -202,7 +226,7 @@ void check_places(const Guards& g, const World& w) {
            fmt::format(
                "particle {} is lost: {:.3g} m from the middle of a specimen of {:.3g} m, at {:.3g} m/s",
                p.gid[k], away, g.size, norm(p.velocity[k])),
-           k);
+           k, advice_for_lost(w, k));
 }
 
 }  // namespace
@@ -228,20 +252,19 @@ Guards make_guards(const World& w) {
   Guards g;
   const ParticleTable& p = w.particles;
   Vec3 low = p.position[0], high = low;
-  double farthest = 0.0;
   for (std::size_t k = 0; k < p.size; ++k) {
     const Vec3& x = p.position[k];
     const double r = p.radius[k];
     low = {std::min(low.x, x.x - r), std::min(low.y, x.y - r), std::min(low.z, x.z - r)};
     high = {std::max(high.x, x.x + r), std::max(high.y, x.y + r), std::max(high.z, x.z + r)};
-    farthest = std::max({farthest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+    g.farthest = std::max({g.farthest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
   }
   g.centre = 0.5 * (low + high);
   g.size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   g.fastest = fastest_wave(w);
   g.explained = g.highest = std::max(0.0, kinetic_energy(w) - energy_of_layers(w.platens)) + stored_energy(w);
   // each place is rounded at every step; errors of 64 steps in a row, all one way
-  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * farthest;
+  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * g.farthest;
   for (std::size_t k = 0; k < w.bonds.size; ++k) g.noise += 0.5 * w.bonds.stiffness[k] * rounding * rounding;
   g.platen_work = w.platens.work;
   for (const Row row : w.confinement.rows) g.skin.push_back(p.position[row]);

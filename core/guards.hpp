@@ -3,20 +3,15 @@
 #pragma once
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/world.hpp"
 
 namespace breccia {
-
-/// More kinetic and stored energy than was put in.
-struct EnergyFromNowhere : SimulationBroke {
-  using SimulationBroke::SimulationBroke;
-};
 
 /// What is remembered from look to look.
 struct Guards {
   Vec3 centre;                   ///< m, of the box around the spheres at the start
   double size = 0;               ///< m, its longest edge
+  double farthest = 0;           ///< m, largest coordinate
   double fastest = 0;            ///< m/s, what the stiffest bond for its mass carries, see fastest_wave
   double explained = 0;          ///< J, kinetic and stored: what was there and the work since
   double highest = 0;            ///< J, the most there ever was

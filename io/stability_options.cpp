@@ -26,7 +26,7 @@ limit      of the step, for each network to seven digits; critical_time_step is 
 DIR/stability.csv   a line for each scene, part and fraction of the limit
 DIR/stability.json  the same with every cause, and the machine
 `scripts/plot DIR` draws the map.
-Exit code 1: a network blew up within its limit, or a run beyond it was not stopped, or one was stopped in vain.)";
+Exit code 1: a network blew up within its limit, did not beyond it, or did so unnoticed.)";
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names;

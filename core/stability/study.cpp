@@ -10,7 +10,7 @@ namespace {
 
 /// Beyond the limit a law's peak within this of the peak of the smallest step counts as right: what the step
 /// itself changes below the limit is as much.
-constexpr double near_enough = 0.2;
+constexpr double near_enough = 0.05;
 
 /// A law's runs are held against that of the smallest step.
 void compare_peaks(std::vector<StabilityRun>& runs) {
@@ -51,8 +51,9 @@ std::vector<StabilityRun> study_stability(const StabilityScene& scene, Stability
 }
 
 bool is_amiss(const StabilityRun& run) {
-  if (run.verdict == Verdict::unnoticed || run.verdict == Verdict::false_alarm) return true;
-  return run.part != StabilityPart::law && run.fraction < 1.0 && run.verdict == Verdict::blew_up;
+  if (run.part == StabilityPart::law) return false;
+  const bool within = run.fraction < 1.0, blew_up = run.verdict == Verdict::blew_up;
+  return run.verdict == Verdict::unnoticed || within == blew_up;
 }
 
 }  // namespace breccia

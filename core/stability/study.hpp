@@ -18,8 +18,8 @@ inline const std::vector<double>& fractions_of(StabilityPart part) {
 std::vector<StabilityRun> study_stability(const StabilityScene& scene, StabilityPart part,
                                           const Material& material, const StabilityLength& length);
 
-/// True for what the study exists to find: a run within the limit that blew up, one beyond it that nothing
-/// stopped, a false alarm.
+/// True for what the study exists to find: a network that blew up within its limit, did not beyond it, or did
+/// so unnoticed.
 bool is_amiss(const StabilityRun& run);
 
 }  // namespace breccia

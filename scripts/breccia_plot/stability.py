@@ -7,9 +7,9 @@ from .study import read_study
 NEEDED = {"scene", "stresses", "part", "fraction", "verdict", "energy_error", "drift", "peak_stress_Pa", "peak_change", "steps"}
 # verdict: colour, mark. Marks and lightness tell them apart too, so that no colour has to
 LOOKS = {"stable": ("#cfe8dc", ""), "blew up": (DISSIPATED, "✕"), "stopped": ("#8fc1e3", "■"), "refused": ("#d9d9d9", "–"),
-         "unnoticed": (TENSION, "!!"), "false alarm": ("#CC79A7", "?")}
+         "unnoticed": (TENSION, "!!")}
 MEANINGS = {"stable": "stable", "blew up": "blew up: guard after so many steps", "stopped": "stopped, its cause named",
-            "refused": "refused", "unnoticed": "amiss: blew up unnoticed", "false alarm": "amiss: stopped in vain"}
+            "refused": "refused", "unnoticed": "peak wrong, not noticed"}
 PARTS = {"network": "network without loss:\nlargest energy error", "damped": "network with\ncontact damping",
          "law": "whole law, loaded:\npeak, and its change"}
 
@@ -33,12 +33,12 @@ def text_in(run, first):
     mark = LOOKS.get(run["verdict"], ("", "?"))[1]
     if run["verdict"] in ("blew up", "stopped"):
         return f"{mark} {short_count(run['steps'])}"
-    if run["verdict"] != "stable":
+    if run["verdict"] == "refused":
         return mark
     if run["part"] == "law" and run["peak_change"] is not None:
         percent = 100 * run["peak_change"]
         if run["fraction"] == first:
-            return f"{run['peak_stress_Pa'] / 1e6:.0f} MPa"
+            return f"{run['peak_stress_Pa'] / 1e6:.2g} MPa" if run["peak_stress_Pa"] < 1e7 else f"{run['peak_stress_Pa'] / 1e6:.0f} MPa"
         return f"{percent:+.0f} %" if abs(percent) >= 9.95 else f"{percent:+.1f} %".replace("-0.0", "0.0").replace("+0.0", "0.0")
     return short(run["energy_error"] if run["energy_error"] is not None else run["drift"])
 
