@@ -106,7 +106,7 @@ class Options(ProgramTest):
         self.assertFalse(self.out.exists())
 
     def test_refusals(self):
-        self.refused("--only", 'did you mean "plain"', options=("--only", "plane"))
+        self.refused("--only", 'did you mean "plain"', options=("--only", "plan"))
         self.refused("--steps", "100 to", options=("--steps", 7))
         self.refused("--steps", "--quick", options=("--steps", 1000, "--quick"))
         self.refused("--threads", "1 to 4096", options=("--threads", 0))
