@@ -39,6 +39,8 @@ def text_in(run, first):
         percent = 100 * run["peak_change"]
         if run["fraction"] == first:
             return f"{run['peak_stress_Pa'] / 1e6:.2g} MPa" if run["peak_stress_Pa"] < 1e7 else f"{run['peak_stress_Pa'] / 1e6:.0f} MPa"
+        if run["verdict"] == "unnoticed":
+            return f"{mark} {percent:+.0f} %"
         return f"{percent:+.0f} %" if abs(percent) >= 9.95 else f"{percent:+.1f} %".replace("-0.0", "0.0").replace("+0.0", "0.0")
     return short(run["energy_error"] if run["energy_error"] is not None else run["drift"])
 
