@@ -38,6 +38,7 @@ void drive_platens(Platens& platens, const ParticleTable& particles, std::size_t
                    (1.0 + dt * platens.dashpot / platens.mass[k]);
     }
     platens.travel[k] += dt * velocity;
+    platens.work -= dt * dot(platens.force[k], velocity);
   }
 }
 

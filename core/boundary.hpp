@@ -18,6 +18,7 @@ struct Platens {
   std::array<Vec3, 2> velocity{};  ///< m/s, half a step before position
   std::array<Vec3, 2> travel{};    ///< m, since the start
   std::array<Vec3, 2> force{};     ///< N, of the specimen on each
+  double work = 0;                 ///< J, that both have done on the specimen
 };
 
 /// Pa, positive in compression, mean of both ends.

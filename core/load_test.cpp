@@ -1,10 +1,12 @@
 #include "core/load_test.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/guards.hpp"
 
 namespace breccia {
 namespace {
@@ -102,21 +104,6 @@ CurveRow state_row(World& w) {
   return row;
 }
 
-/// When a number is lost: the first particle that has it, and what to try.
-void check_finite(const World& w, const CurveRow& row) {
-  if (std::isfinite(row.kinetic_J) && std::isfinite(row.stored_J)) return;
-  for (std::size_t k = 0; k < w.particles.size; ++k) {
-    const Vec3& v = w.particles.velocity[k];
-    if (std::isfinite(dot(v, v))) continue;
-    fail<SimulationBroke>(
-        "at {:.6g} s (step {}) particle {} has a velocity that is not a number; the step may be too "
-        "large: try time.safety = {:.2g}",
-        w.time, w.step, w.particles.gid[k], 0.5 * w.options.safety);
-  }
-  fail<SimulationBroke>("at {:.6g} s (step {}) the energy is not a number; try time.safety = {:.2g}", w.time,
-                        w.step, 0.5 * w.options.safety);
-}
-
 /// Tells a program how far a run is, a few times a second, and what has cracked.
 class Teller {
 public:
@@ -166,6 +153,7 @@ struct Run {
   LoadResult& result;
   Teller teller;
   Photographer photographer;
+  Guards guards;
 
   bool interrupted() const { return hooks.interrupted && hooks.interrupted(); }
 };
@@ -193,7 +181,7 @@ bool press_hydrostatically(Run& run) {
     stress += axial_stress(w.platens) / between_checks;
     if (k % between_checks != 0) continue;
     CurveRow row = state_row(w);
-    check_finite(w, row);
+    check(run.guards, w, row.kinetic_J, row.stored_J);
     row.time_s = w.time;
     row.axial_stress_Pa = stress;
     const double since = w.time - start;
@@ -287,7 +275,7 @@ void load(Run& run) {
     const double done = gone() / (test.stop_strain * width);
     if (!add_reading(recorder, read(w, in)) && done < 1.0) continue;
     const CurveRow row = close_row(recorder, state_row(w));
-    check_finite(w, row);
+    check(run.guards, w, row.kinetic_J, row.stored_J);
     run.teller.tell(2, done, row);
     run.teller.tell_cracks(w, row);
     direction.follow(test, row, run.result);
@@ -322,7 +310,7 @@ void press_evenly(Run& run) {
     const double done = pressure / test.confinement;
     if (!add_reading(recorder, read(w, in)) && done < 1.0) continue;
     const CurveRow row = close_row(recorder, state_row(w));
-    check_finite(w, row);
+    check(run.guards, w, row.kinetic_J, row.stored_J);
     run.teller.tell(1, done, row);
     run.teller.tell_cracks(w, row);
     const bool interrupted = run.interrupted(), last = done >= 1.0 || interrupted;
@@ -338,7 +326,7 @@ void press_evenly(Run& run) {
 void run_load_test(World& w, const Assembly& assembly, const LoadTest& test, const LoadHooks& hooks,
                    LoadResult& result) {
   const auto start = Clock::now();
-  Run run{w, assembly, test, hooks, result, Teller(hooks), Photographer(test, hooks)};
+  Run run{w, assembly, test, hooks, result, Teller(hooks), Photographer(test, hooks), make_guards(w)};
   if (test.loading == Loading::hydrostatic)
     press_evenly(run);
   else if (test.confinement > 0.0 && !press_hydrostatically(run))

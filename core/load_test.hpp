@@ -54,7 +54,7 @@ struct LoadHooks {
 };
 
 /// @param result  filled as the run goes, so that what there is survives an exception
-/// @throws SimulationBroke when a number is not finite
+/// @throws SimulationBroke when a guard stops it, see core/guards.hpp
 void run_load_test(World& world, const Assembly& assembly, const LoadTest& test, const LoadHooks& hooks,
                    LoadResult& result);
 

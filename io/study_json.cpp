@@ -20,6 +20,21 @@ nlohmann::ordered_json json_of(const Machine& m) {
           {"instruction_set", m.instruction_set}};
 }
 
+namespace {
+
+/// A field of a line: text with a comma or a quote in it is quoted (RFC 4180), what is not there is empty.
+std::string field(const nlohmann::ordered_json& value) {
+  if (value.is_null()) return {};
+  if (!value.is_string()) return value.dump();
+  const std::string text = value.get<std::string>();
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+}  // namespace
+
 std::string csv_of(const std::vector<nlohmann::ordered_json>& rows) {
   std::string text;
   for (const auto& row : rows) {
@@ -27,8 +42,7 @@ std::string csv_of(const std::vector<nlohmann::ordered_json>& rows) {
     for (const auto& [name, value] : row.items()) {
       const std::string_view comma = line.empty() ? "" : ",";
       fmt::format_to(std::back_inserter(names), "{}{}", comma, name);
-      fmt::format_to(std::back_inserter(line), "{}{}", comma,
-                     value.is_string() ? value.get<std::string>() : value.dump());
+      fmt::format_to(std::back_inserter(line), "{}{}", comma, field(value));
     }
     if (text.empty()) text = names + '\n';
     text += line + '\n';

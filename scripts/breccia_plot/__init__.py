@@ -8,6 +8,7 @@ from .layouts import draw_layouts
 from .scaling import draw_scaling
 from .series import read_series
 from .specimen import draw_specimen
+from .stability import draw_stability
 from .workprecision import draw_workprecision
 
 PICTURES = {
@@ -16,4 +17,5 @@ PICTURES = {
     "specimen.png": draw_specimen,
     "energy.png": draw_energy,
 }
-STUDIES = {"scaling": draw_scaling, "layouts": draw_layouts, "workprecision": draw_workprecision}
+STUDIES = {"scaling": draw_scaling, "layouts": draw_layouts, "stability": draw_stability,
+           "workprecision": draw_workprecision}

@@ -1,4 +1,4 @@
-"""What breccia-scaling, breccia-layouts and breccia-workprecision leave: a JSON file with runs, machine and whatever the study adds."""
+"""What the studies leave: a JSON file with runs, machine and whatever each of them adds."""
 import json
 
 from .errors import BadInput

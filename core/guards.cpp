@@ -1,0 +1,283 @@
+#include "core/guards.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace breccia {
+namespace {
+
+/// What goes on along a bond or contact, as the end of a message names it.
+struct Link {
+  Gid lo, hi;
+  double turn;  ///< motion of its ends against each other in a step, over its length
+};
+
+double turn_of(const ParticleTable& p, Row lo, Row hi, double dt) {
+  const double step = dt * norm(p.velocity[hi] - p.velocity[lo]);
+  return step / norm(p.position[hi] - p.position[lo]);
+}
+
+/// Of all bonds that hold a particle the one whose ends move most against each other.
+std::optional<Link> busiest_bond(const World& w, Row row) {
+  std::optional<Link> found;
+  const BondTable& b = w.bonds;
+  for (std::size_t k = 0; k < b.size; ++k) {
+    if ((b.row_lo[k] != row && b.row_hi[k] != row) || bond_state(b, k) != BondState::intact) continue;
+    const double turn = turn_of(w.particles, b.row_lo[k], b.row_hi[k], w.dt);
+    if (!found || turn > found->turn || std::isnan(turn)) found = Link{b.gid_lo[k], b.gid_hi[k], turn};
+  }
+  return found;
+}
+
+/// Contacts that press on a particle now, taken alone with its neighbours fixed: dt^2 k/(2 m), 1 where they
+/// alone reach the limit of two such particles against each other.
+double demand_of_contacts(const World& w, Row row) {
+  const ContactTable& c = w.contacts;
+  double stiffness = 0.0;
+  for (std::size_t k = 0; k < c.size; ++k) {
+    if (c.row_lo[k] != row && c.row_hi[k] != row) continue;
+    const Vec3 l = w.particles.position[c.row_hi[k]] - w.particles.position[c.row_lo[k]];
+    if (norm(l) < c.free_length[k]) stiffness += c.stiffness[k];
+  }
+  return 0.5 * w.dt * w.dt * stiffness / w.particles.mass[row];
+}
+
+/// The likely cause, and what to change.
+std::string advice(const World& w, Row row) {
+  const double lower = 0.5 * w.options.safety;
+  if (w.dt > w.critical_dt)
+    return fmt::format(
+        "likely cause: the step, {:.4g} s, is beyond the critical {:.4g} s; try time.safety = 0.8", w.dt,
+        w.critical_dt);
+  if (demand_of_contacts(w, row) > 0.5)
+    return fmt::format(
+        "likely cause: the contacts that have formed on it are stiffer than the bonds that the step was "
+        "found "
+        "from; try time.safety = {:.2g}",
+        lower);
+  const double platens = std::max(norm(w.platens.velocity[0]), norm(w.platens.velocity[1]));
+  // strains at failure are near 1e-3: platens a thousandth as fast as a wave crush what they touch
+  if (platens > 1e-3 * fastest_wave(w))
+    return fmt::format(
+        "likely cause: platens of {:.3g} m/s crush what they touch before the rest feels it; try "
+        "test.platen_speed = {:.2g}",
+        platens, 0.1 * platens);
+  return fmt::format("likely cause: the step is too large for this state; try time.safety = {:.2g}", lower);
+}
+
+[[noreturn]] void stop(const World& w, const std::string& what, Row row, const std::string& to_do) {
+  const auto bond = busiest_bond(w, row);
+  const std::string at =
+      bond ? fmt::format("its bond {}-{} moves most", bond->lo, bond->hi) : std::string("no bond holds it");
+  fail<SimulationBroke>("at {:.6g} s (step {}) {}; {}; {}", w.time, w.step, what, at, to_do);
+}
+[[noreturn]] void stop(const World& w, const std::string& what, Row row) {
+  stop(w, what, row, advice(w, row));
+}
+
+/// So far from the origin places are rounded to more than a step moves them, while velocities are not: shear
+/// forces, which are summed from velocities, then grow without a motion.
+std::optional<std::string> advice_far_away(const Guards& g) {
+  if (g.farthest < 1e5 * g.size) return std::nullopt;
+  return fmt::format(
+      "likely cause: {:.2g} m from the origin places are rounded to {:.1g} m; move the specimen to the "
+      "origin",
+      g.farthest, std::numeric_limits<double>::epsilon() * g.farthest);
+}
+
+/// For a particle that has left, with a step that was right.
+std::string advice_for_lost(const World& w, Row row) {
+  if (w.dt > w.critical_dt || demand_of_contacts(w, row) > 0.5) return advice(w, row);
+  if (w.confinement.pressure > 0.0)
+    return fmt::format("likely cause: pressed out between the others; try test.confinement = \"{:.3g} MPa\"",
+                       0.5e-6 * w.confinement.pressure);
+  const double strain = std::abs(approach(w.platens)) / w.body.height;
+  return fmt::format("likely cause: torn off and thrown; end the test sooner, try test.stop_strain = {:.2g}",
+                     strain > 0.0 ? 0.5 * strain : 0.01);
+}
+
+bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void check_numbers(const World& w, double kinetic, double stored) {
+  if (std::isfinite(kinetic) && std::isfinite(stored)) return;
+  const ParticleTable& p = w.particles;
+  for (std::size_t k = 0; k < p.size; ++k) {
+    const bool spin = p.spin.empty() || is_finite(p.spin[k]);
+    const char* lost = !is_finite(p.velocity[k])   ? "velocity"
+                       : !is_finite(p.position[k]) ? "position"
+                       : !spin                     ? "spin"
+                                                   : nullptr;
+    if (lost) stop(w, fmt::format("particle {} has a {} that is not a number", p.gid[k], lost), Row(k));
+  }
+  for (std::size_t k = 0; k < w.bonds.size; ++k) {
+    const BondHistory<double> h = history_of_bond(w.bonds, k);
+    if (is_finite(h.shear) && std::isfinite(h.plastic_stretch)) continue;
+    stop(w, fmt::format("bond {}-{} has a force that is not a number", w.bonds.gid_lo[k], w.bonds.gid_hi[k]),
+         w.bonds.row_lo[k]);
+  }
+  stop(w, "the energy is not a number", 0);
+}
+
+/// The particle with the most kinetic energy of translation.
+Row most_energetic(const ParticleTable& p) {
+  const auto energy = [&](Row k) { return p.mass[k] * dot(p.velocity[k], p.velocity[k]); };
+  Row most = 0;
+  for (Row k = 1; k < p.size; ++k)
+    if (energy(k) > energy(most)) most = k;
+  return most;
+}
+
+/// J, of the layers in the motion that the platens prescribe: not the specimen's own.
+double energy_of_layers(const Platens& platens) {
+  double twice = 0.0;
+  for (const std::size_t k : {0u, 1u}) {
+    const Vec3& v = platens.velocity[k];
+    twice += platens.mass[k] * (platens.rough ? dot(v, v) : v.z * v.z);
+  }
+  return 0.5 * twice;
+}
+
+/// J, of platens and pressure since the last look. The pressure on a particle hardly changes from one look to
+/// the next, whatever the particle does meanwhile.
+double work_since(Guards& g, const World& w) {
+  double work = w.platens.work - g.platen_work;
+  g.platen_work = w.platens.work;
+  const Confinement& c = w.confinement;
+  for (std::size_t k = 0; k < c.rows.size(); ++k) {
+    const Vec3& x = w.particles.position[c.rows[k]];
+    work += 0.5 * dot(g.push[k] + c.force[k], x - g.skin[k]);
+    g.skin[k] = x;
+    g.push[k] = c.force[k];
+  }
+  return work;
+}
+
+/// J, with the places of the step whose forces the bonds remember: where places have gone on since, a bond
+/// that yields seems to hold more than it does.
+double stored_at_forces(World w) {
+  ParticleTable& p = w.particles;
+  for (std::size_t k = 0; k < p.size; ++k) p.position[k] += -w.dt * p.velocity[k];
+  return stored_energy(w);
+}
+
+void check_energy(Guards& g, const World& w, double kinetic, double stored) {
+  g.explained = std::max(0.0, g.explained + work_since(g, w));
+  const double own = std::max(0.0, kinetic - energy_of_layers(w.platens));
+  const double bound = allowed_excess(w) * (g.explained + 0.01 * g.highest) + g.noise;
+  double there = own + stored;
+  if (there > bound) there = own + stored_at_forces(w);
+  if (there > bound) {
+    const Row row = most_energetic(w.particles);
+    stop(
+        w,
+        fmt::format("energy comes from nowhere: {:.3g} J kinetic and stored, where {:.3g} J are explained by "
+                    "what was there and the work since; particle {} has most of it, {:.3g} m/s",
+                    there, g.explained, w.particles.gid[row], norm(w.particles.velocity[row])),
+        row, advice_far_away(g).value_or(advice(w, row)));
+  }
+  g.explained = std::min(g.explained, there);
+  g.highest = std::max(g.highest, there);
+}
+
+void check_speeds(const Guards& g, const World& w) {
+  const ParticleTable& p = w.particles;
+  for (Row k = 0; k < p.size; ++k)
+    if (const double speed = norm(p.velocity[k]); speed > g.fastest)
+      stop(w,
+           fmt::format("particle {} moves at {:.3g} m/s, faster than a wave in the stiffest bond, {:.3g} m/s",
+                       p.gid[k], speed, g.fastest),
+           k);
+}
+
+/// A bond's shear force is carried along by the turn of its normal from step to step, which a turn beyond a
+/// right angle leaves without a meaning.
+void check_turns(const World& w) {
+  const ParticleTable& p = w.particles;
+  const BondTable& b = w.bonds;
+  for (std::size_t k = 0; k < b.size; ++k) {
+    const Row lo = b.row_lo[k], hi = b.row_hi[k];
+    const Vec3 l = p.position[hi] - p.position[lo];
+    if (dot(l, l - w.dt * (p.velocity[hi] - p.velocity[lo])) > 0.0) continue;
+    const double reach = 0.2 * (p.radius[lo] + p.radius[hi]);
+    const std::string cause =
+        b.rest_length[k] < reach
+            ? fmt::format(
+                  "likely cause: the spheres are nested, their centres {:.3g} m apart; take one away, or "
+                  "try time.safety = {:.2g}",
+                  b.rest_length[k], 0.1 * w.options.safety)
+            : advice(w, lo);
+    fail<SimulationBroke>(
+        "at {:.6g} s (step {}) bond {}-{}, {:.3g} m long, has turned through more than a right angle in one "
+        "step, particle {} at {:.3g} m/s; {}",
+        w.time, w.step, b.gid_lo[k], b.gid_hi[k], norm(l), b.gid_lo[k], norm(p.velocity[lo]), cause);
+  }
+}
+
+void check_places(const Guards& g, const World& w) {
+  const ParticleTable& p = w.particles;
+  for (Row k = 0; k < p.size; ++k)
+    if (const double away = norm(p.position[k] - g.centre); away > lost_sizes * g.size)
+      stop(w,
+           fmt::format(
+               "particle {} is lost: {:.3g} m from the middle of a specimen of {:.3g} m, at {:.3g} m/s",
+               p.gid[k], away, g.size, norm(p.velocity[k])),
+           k, advice_for_lost(w, k));
+}
+
+}  // namespace
+
+double fastest_wave(const World& w) {
+  const ParticleTable& p = w.particles;
+  const BondTable& b = w.bonds;
+  double square = 0.0;
+  for (std::size_t k = 0; k < b.size; ++k) {
+    const double m = p.mass[b.row_lo[k]], n = p.mass[b.row_hi[k]];
+    square = std::max(square, b.stiffness[k] * (m + n) / (m * n) * b.rest_length[k] * b.rest_length[k]);
+  }
+  return square > 0.0 ? std::sqrt(square) : std::numeric_limits<double>::infinity();
+}
+
+double allowed_excess(const World& w) {
+  if (w.dt > w.critical_dt) return 2.0;  // nothing there wavers about what it is
+  const double s = 0.98 * w.dt / w.critical_dt;
+  return 1.5 * (1.0 + s) / (1.0 - s);
+}
+
+Guards make_guards(const World& w) {
+  Guards g;
+  const ParticleTable& p = w.particles;
+  Vec3 low = p.position[0], high = low;
+  for (std::size_t k = 0; k < p.size; ++k) {
+    const Vec3& x = p.position[k];
+    const double r = p.radius[k];
+    low = {std::min(low.x, x.x - r), std::min(low.y, x.y - r), std::min(low.z, x.z - r)};
+    high = {std::max(high.x, x.x + r), std::max(high.y, x.y + r), std::max(high.z, x.z + r)};
+    g.farthest = std::max({g.farthest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+  }
+  g.centre = 0.5 * (low + high);
+  g.size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  g.fastest = fastest_wave(w);
+  g.explained = g.highest = std::max(0.0, kinetic_energy(w) - energy_of_layers(w.platens)) + stored_energy(w);
+  // each place is rounded at every step; errors of 64 steps in a row, all one way
+  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * g.farthest;
+  for (std::size_t k = 0; k < w.bonds.size; ++k) g.noise += 0.5 * w.bonds.stiffness[k] * rounding * rounding;
+  g.platen_work = w.platens.work;
+  for (const Row row : w.confinement.rows) g.skin.push_back(p.position[row]);
+  g.push = w.confinement.force;
+  return g;
+}
+
+void check(Guards& g, const World& w, double kinetic, double stored) {
+  check_numbers(w, kinetic, stored);
+  check_energy(g, w, kinetic, stored);
+  check_speeds(g, w);
+  check_turns(w);
+  check_places(g, w);
+}
+
+}  // namespace breccia

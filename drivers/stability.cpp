@@ -1,0 +1,3 @@
+#include "io/stability_program.hpp"
+
+int main(int argc, char** argv) { return breccia::run_stability_program(argc, argv); }
