@@ -48,7 +48,7 @@ struct BondLedgerColumns {
 struct BondPassHistory {
   BondHistoryColumns<double> full;
   BondHistoryColumns<float> narrow;
-  BondLedgerColumns ledger;
+  BondLedgerColumns ledger{};
 };
 
 /// A bond that broke in this step, as it was before.

@@ -14,7 +14,7 @@ namespace {
 /// M^-1/2 K M^-1/2 for the stiffnesses given, a column at a time.
 Eigen::MatrixXd scaled_matrix(const World& w, const std::function<SpringConstants(std::size_t)>& constants) {
   const ParticleTable& p = w.particles;
-  const ElasticNetwork net = elastic_network(p, w.bonds, w.options.features.rotation, 1, constants);
+  const ElasticNetwork net = elastic_network(p, w.bonds, {}, w.options.features.rotation, 1, constants);
   const auto n = static_cast<Eigen::Index>(6 * p.size);
   Eigen::VectorXd by_mass(n);
   for (std::size_t row = 0; row < p.size; ++row) {

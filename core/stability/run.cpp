@@ -8,8 +8,8 @@
 #include "core/area_factor.hpp"
 #include "core/error.hpp"
 #include "core/guards.hpp"
+#include "core/law_of_material.hpp"
 #include "core/stability/exact_limit.hpp"
-#include "core/time_step.hpp"
 
 namespace breccia {
 namespace {
@@ -20,13 +20,6 @@ void make_linear(WorldOptions& options, StabilityPart part) {
   options.new_contacts = false;
   options.global_damping = {};
   if (part == StabilityPart::network) options.contact_damping = 0.0;
-}
-
-void find_step(World& w) {
-  w.critical_dt = critical_time_step(
-      w.particles, w.bonds, w.shear_ratio,
-      {w.options.features.rotation, w.space == Space::plane, inertia_factor(w)},
-      std::max(w.options.global_damping.translation, w.options.global_damping.rotation), 1);
 }
 
 /// Random velocities and spins, without net momentum, so small that nothing departs from the linear network:
@@ -54,8 +47,8 @@ void shake(World& w) {
 /// and after it, which is what the scheme conserves (MODEL section 9). Makes the step.
 double advance_with_energy(World& w) {
   ParticleTable& p = w.particles;
-  std::vector<Vec3> place = p.position;
-  const std::vector<Vec3> velocity = p.velocity, spin = p.spin;
+  Column<Vec3> place = p.position;
+  const Column<Vec3> velocity = p.velocity, spin = p.spin;
   advance(w);
   double kinetic = 0.0;
   for (std::size_t k = 0; k < p.size; ++k)
@@ -158,6 +151,7 @@ void run_test(StabilityWorld& made, StabilityRun& run) {
     run.cause = why.what();
   }
   run.steps = w.step;
+  run.energy_error = energy_error(w.ledger);
   if (run.verdict == Verdict::stable) run.peak = peak_of(result.record);
   settle(w);
   const BrokenCount broken = count_broken(w);
@@ -197,7 +191,11 @@ StabilityWorld make_stability_world(const StabilityScene& scene, StabilityPart p
   scene.differ(setup);
   if (part != StabilityPart::law) make_linear(setup.options, part);
   StabilityWorld made;
-  made.assembly = assemble(setup.specimen, setup.body, {}, setup.options.features, 1);
+  setup.options.ledger = part == StabilityPart::law;
+  const LoopKind loop{setup.options.precision, setup.options.ledger};
+  const Features columns =
+      built_features(law_of(setup.material, 1.0 / 3.0), setup.options.features, loop);  // whatever the ratio
+  made.assembly = assemble(setup.specimen, setup.body, {}, columns, 1);
   AreaFactorRequest factor;
   factor.rule = AlphaRule::affine;
   factor.material = setup.material;
@@ -208,7 +206,7 @@ StabilityWorld make_stability_world(const StabilityScene& scene, StabilityPart p
     setup.change(w);
     w.platens =
         make_platens(made.assembly, w.particles, setup.options.rough_platens, setup.material.young_modulus);
-    find_step(w);
+    choose_step(w);
   }
   for (std::size_t k = 0; k < w.particles.size; ++k) {
     w.particles.position[k] += setup.offset;

@@ -40,7 +40,8 @@ struct StabilityRun {
   Verdict verdict = Verdict::stable;
   std::string cause;           ///< of a refusal or stop
   std::uint64_t steps = 0;     ///< done
-  double energy_error = none;  ///< largest departure of the energy from its start, over it; without loss only
+  double energy_error = none;  ///< of a network without loss the largest departure of the energy from its
+                               ///< start, over it; of a test that of the ledger
   double drift = none;   ///< mean of the last tenth less the start, over it: of the energy; of a rest, stress
   double broken = none;  ///< bonds, of a test
   double peak = none;    ///< Pa, of a test

@@ -24,28 +24,6 @@ Vec3 across(const Vec3& n) {
   return (1.0 / norm(c)) * c;
 }
 
-/// Dashpots follow stiffness and mass as c_n = 2 xi sqrt(m_ij k_n), in whatever form they were made.
-class Dashpots {
-public:
-  explicit Dashpots(const World& w) : before_(roots(w)) {}
-  void follow(World& w) const {
-    if (w.bonds.damping.empty()) return;
-    const std::vector<double> now = roots(w);
-    for (std::size_t k = 0; k < w.bonds.size; ++k) w.bonds.damping[k] *= now[k] / before_[k];
-  }
-
-private:
-  static std::vector<double> roots(const World& w) {
-    std::vector<double> root(w.bonds.size);
-    for (std::size_t k = 0; k < w.bonds.size; ++k) {
-      const double m = w.particles.mass[w.bonds.row_lo[k]], n = w.particles.mass[w.bonds.row_hi[k]];
-      root[k] = std::sqrt(m * n / (m + n) * w.bonds.stiffness[k]);
-    }
-    return root;
-  }
-  std::vector<double> before_;
-};
-
 }  // namespace
 
 const Specimen& stability_packing(std::size_t spheres) {
@@ -115,7 +93,6 @@ Specimen stack_of(std::size_t count, const Body& body) {
 }
 
 void soften_lower_half(World& w, double factor) {
-  const Dashpots dashpots(w);
   BondTable& b = w.bonds;
   const auto is_low = [&](Row row) { return w.particles.position[row].z < 0.0; };
   for (std::size_t k = 0; k < b.size; ++k) {
@@ -125,11 +102,9 @@ void soften_lower_half(World& w, double factor) {
     b.area[k] *= by;
     if (!b.strength_area.empty()) b.strength_area[k] *= by;
   }
-  dashpots.follow(w);
 }
 
 void spread_masses(World& w, double decades) {
-  const Dashpots dashpots(w);
   std::vector<std::size_t> order(w.particles.size);
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
   std::mt19937_64 random(1);
@@ -137,7 +112,6 @@ void spread_masses(World& w, double decades) {
   for (std::size_t k = 0; k < order.size(); ++k)
     w.particles.mass[order[k]] *=
         std::pow(10.0, decades * (static_cast<double>(k) / static_cast<double>(order.size() - 1) - 0.5));
-  dashpots.follow(w);
 }
 
 }  // namespace breccia

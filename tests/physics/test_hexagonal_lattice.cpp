@@ -49,7 +49,7 @@ Stress stress_at(double e_x, double e_z, double E, double nu) {
     p.position[k] += u;
     p.velocity[k] = (1 / w.dt) * u;
   }
-  const std::vector<Vec3> deformed = p.position;
+  const Column<Vec3> deformed = p.position;
   advance(w);
   p.position = deformed;  // the forces belong to these
   fill_stress_columns(w);

@@ -49,7 +49,7 @@ Watch watch(World& w, int steps) {
   Watch seen;
   const std::set<Ends> bonds = bonded(w);
   for (int k = 0; k < steps; ++k) {
-    const std::vector<Vec3> x = w.particles.position;
+    const std::vector<Vec3> x(w.particles.position.begin(), w.particles.position.end());
     advance(w);
     const std::set<Ends> list = candidates(w);
     for (const Ends& pair : overlapping(w, x)) {

@@ -90,7 +90,7 @@ TEST_CASE("guards: a test with a step beyond the limit is stopped before it has 
 }
 
 TEST_CASE(
-    "guards: no failure of a specimen fires, however violent; nor do pressure, unloading, fast platens") {
+    "guards: no failure of a specimen fires, however violent, nor do pressure, unloading, fast platens") {
   ref::Parameters brittle;
   brittle.delta_n = brittle.delta_s = 0;
   brittle.xi = 0;

@@ -269,7 +269,7 @@ TEST_CASE("time step: what contacts add to the stability number stays below its 
   World w = make_world(a, scene::material_of(p), scene::factor(p), o);
   const double without = stability_number(scene_of(w), w.dt);
   w.search.skin *= 5;  // many at once
-  renew_contacts(w.search, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, o.features, 1);
+  renew_contacts(w.search, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, o.features, false, 1);
   REQUIRE(w.contacts.size > 20);
   std::vector<std::size_t> all(w.contacts.size);
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -281,7 +281,7 @@ TEST_CASE("time step: what contacts add to the stability number stays below its 
 }
 
 TEST_CASE(
-    "largest eigenvalue: of a diagonal with one entry above a crowd [1e-9]; applications by the theorem") {
+    "largest eigenvalue: of a diagonal with one entry above a crowd [1e-9], applications by the theorem") {
   const Eigen::Index n = 5000;
   Eigen::VectorXd d = Eigen::VectorXd::LinSpaced(n, 0, 1);
   d[1234] = 1.05;
