@@ -10,31 +10,30 @@
 namespace breccia {
 namespace {
 
-/// Velocity and spin of a row half a step after the forces.
-struct Kicked {
-  Vec3 velocity, spin;
+/// What global damping does to a velocity (or a spin) that a force (or a torque) kicks.
+struct Braked {
+  double share = 0;  ///< force of the brake over the velocity, which it opposes
+  Vec3 after;        ///< velocity half a step after the force
 };
 
-Vec3 spin_after(const World& w, std::size_t row) {
-  const ParticleTable& p = w.particles;
-  if (p.spin.empty() || !w.options.features.rotation) return {};
-  const Vec3 torque = damped(p.torque[row], p.spin[row], w.options.global_damping.rotation);
-  return p.spin[row] + (w.dt / inertia(inertia_factor(w), p.mass[row], p.radius[row])) * torque;
+/// @param by_mass  dt/m, or dt/I
+Braked braked(const Vec3& force, const Vec3& velocity, double alpha, double by_mass) {
+  const double speed2 = dot(velocity, velocity);
+  const double share = speed2 > 0.0 ? alpha * std::sqrt(dot(force, force) / speed2) : 0.0;
+  return {share, velocity + by_mass * (force - share * velocity)};
 }
 
-Kicked kicked(const World& w, std::size_t row) {
+Braked braked_motion(const World& w, std::size_t row) {
   const ParticleTable& p = w.particles;
-  const double alpha = w.options.global_damping.translation;
-  const double by_mass = w.dt / p.mass[row];
-  if (row < p.free)
-    return {p.velocity[row] + by_mass * damped(p.force[row], p.velocity[row], alpha), spin_after(w, row)};
-  Vec3 v = w.platens.velocity[row >= w.first_top];
-  if (!w.platens.rough) {
-    const Vec3 lateral{p.velocity[row].x, p.velocity[row].y, 0.0};
-    const Vec3 after = lateral + by_mass * damped({p.force[row].x, p.force[row].y, 0.0}, lateral, alpha);
-    v.x = after.x, v.y = after.y;
-  }
-  return {v, spin_after(w, row)};
+  Vec3 force = p.force[row], velocity = p.velocity[row];
+  const bool held = row >= p.free;
+  if (held) force.z = velocity.z = 0.0;  // a smooth platen leaves two directions free
+  Braked b = braked(force, velocity, w.options.global_damping.translation, w.dt / p.mass[row]);
+  if (!held) return b;
+  const Vec3& platen = w.platens.velocity[row >= w.first_top];
+  if (w.platens.rough) return {0.0, platen};
+  b.after.z = platen.z;
+  return b;
 }
 
 /// Work over the two half steps around the present forces, J, and the kinetic energy.
@@ -49,28 +48,34 @@ struct StepWork {
   }
 };
 
-StepWork work_on(const World& w, std::size_t row) {
+/// What the platen does to a row that it holds: it prescribes z, and x and y where it is rough.
+void add_platen(const World& w, std::size_t row, const Vec3& after, StepWork& s) {
   const ParticleTable& p = w.particles;
   const Vec3& v = p.velocity[row];
-  const Kicked after = kicked(w, row);
-  const double m = p.mass[row], half = 0.5 * w.dt;
+  Vec3 reaction = (p.mass[row] / w.dt) * (after - v) - p.force[row];
+  if (!w.platens.rough) reaction.x = reaction.y = 0.0;
+  s.held_this = 0.5 * w.dt * dot(reaction, v);
+  s.held_next = 0.5 * w.dt * dot(reaction, after);
+}
+
+StepWork work_on(const World& w, std::size_t row) {
+  const ParticleTable& p = w.particles;
+  const double half = 0.5 * w.dt, m = p.mass[row];
   StepWork s;
-  s.kinetic = 0.5 * m * dot(v, after.velocity);
-  // what acts beside the forces: global damping on a free row, the platen on a held one
-  Vec3 beside = (m / w.dt) * (after.velocity - v) - p.force[row];
-  Vec3 held{};
+  Vec3 v = p.velocity[row];
+  Braked motion = braked_motion(w, row);
+  s.kinetic = 0.5 * m * dot(v, motion.after);
   if (row >= p.free) {
-    held = w.platens.rough ? beside : Vec3{0.0, 0.0, beside.z};
-    beside -= held;
+    add_platen(w, row, motion.after, s);
+    v.z = motion.after.z = 0.0;
   }
-  s.held_this = half * dot(held, v), s.held_next = half * dot(held, after.velocity);
-  s.motion_this = -half * dot(beside, v), s.motion_next = -half * dot(beside, after.velocity);
+  s.motion_this = half * motion.share * dot(v, v), s.motion_next = half * motion.share * dot(v, motion.after);
   if (p.spin.empty() || !w.options.features.rotation) return s;
   const Vec3& spin = p.spin[row];
   const double i = inertia(inertia_factor(w), m, p.radius[row]);
-  s.kinetic += 0.5 * i * dot(spin, after.spin);
-  const Vec3 brake = (i / w.dt) * (after.spin - spin) - p.torque[row];
-  s.spin_this = -half * dot(brake, spin), s.spin_next = -half * dot(brake, after.spin);
+  const Braked turn = braked(p.torque[row], spin, w.options.global_damping.rotation, w.dt / i);
+  s.kinetic += 0.5 * i * dot(spin, turn.after);
+  s.spin_this = half * turn.share * dot(spin, spin), s.spin_next = half * turn.share * dot(spin, turn.after);
   return s;
 }
 
@@ -137,7 +142,7 @@ void book_motion(World& w) {
   for (std::size_t k = 0; k < w.confinement.rows.size() && w.confinement.pressure != 0.0; ++k) {
     const Row row = w.confinement.rows[k];
     over_this += 0.5 * w.dt * dot(w.confinement.force[k], w.particles.velocity[row]);
-    over_next += 0.5 * w.dt * dot(w.confinement.force[k], kicked(w, row).velocity);
+    over_next += 0.5 * w.dt * dot(w.confinement.force[k], braked_motion(w, row).after);
   }
   ledger.pressure.add(over_this, over_next);
 }

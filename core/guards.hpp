@@ -13,12 +13,16 @@ struct Guards {
   double size = 0;               ///< m, its longest edge
   double farthest = 0;           ///< m, largest coordinate
   double fastest = 0;            ///< m/s, what the stiffest bond for its mass carries, see fastest_wave
+  double shortest = 0;           ///< m, rest length of a bond
   double explained = 0;          ///< J, kinetic and stored: what was there and the work since
   double highest = 0;            ///< J, the most there ever was
   double noise = 0;              ///< J, that rounding of the coordinates alone stores
   double platen_work = 0;        ///< J, at the last look
   std::vector<Vec3> skin, push;  ///< m, N: places of the skin at the last look, and the pressure on it
 };
+
+/// A run whose ledger is out by so much of the work put in has lost its way.
+inline constexpr double out_of_balance = 0.1;
 
 /// A specimen as it stands now, with the velocities that it has.
 Guards make_guards(const World& world);

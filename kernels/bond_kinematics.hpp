@@ -73,7 +73,7 @@ inline Pair<R> relative_motion(const Ends<R>& ends, const R& arm_offset, double 
 template <class R>
 inline R elongation(const Ends<R>& ends, const Pair<R>& p, double dt) {
   const Vec<R> moved = R(dt) * ends.velocity, before = ends.branch - moved;
-  return dot(moved, ends.branch + before) / (p.distance + square_root(dot(before, before)));
+  return dot(moved, ends.branch + before) / (p.distance + dot(before, p.normal_before));
 }
 
 /// Carries a tangential vector along with the pair: the turn of the normal, then the mean twist about it.

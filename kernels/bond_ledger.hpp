@@ -32,6 +32,17 @@ inline R damage_energy(const R& damage, const R& tension, const R& stiffness, co
   return R(0.5) * damage * (R(1.0) + delta) * tension * tension / stiffness;
 }
 
+/// Of a bond without damage the forces follow from where it was.
+/// @param stretch  m, elongation of the step since
+/// @param before   the history as it was then
+template <Features features, class R>
+inline LastForces<R> forces_before(const BondConstants<R>& bond, const Pair<R>& pair, const R& stretch,
+                                   const BondHistory<R>& before, const R& viscous) {
+  R elastic = pair.distance - stretch - bond.rest_length;
+  if constexpr (features.plasticity) elastic -= before.plastic_stretch;
+  return {bond.stiffness * elastic, viscous, R(1.0)};
+}
+
 /// @param stretch  m, elongation of the step
 /// @param before   the history as it came into the step; h: as it left
 /// @param last     brought up to this step's end

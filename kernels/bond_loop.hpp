@@ -117,21 +117,36 @@ template <Features features, class Bonds>
     }
 }
 
-/// Work and losses of a batch, added to those of its block; the forces are kept for the next step.
+template <Features features>
+[[gnu::always_inline]] inline bool is_damaged(const BondHistory<Lanes>& h) {
+  if constexpr (features.breakage)
+    return any(h.damage_normal > 0.0 || h.damage_shear > 0.0);
+  else
+    return false;
+}
+
+/// Losses of a batch, added to those of its block; forces that do not follow from the state are kept for the
+/// next step.
 template <Features features, class Law, class Bonds>
 [[gnu::always_inline]] inline void keep_losses(const Law& law, const BondConstants<Lanes>& bond,
                                                const Ends<Lanes>& ends, const Pair<Lanes>& pair, double dt,
                                                const BondHistory<Lanes>& before, const BondHistory<Lanes>& h,
                                                const BondAction<Lanes>& action, const Bonds& bonds,
                                                std::size_t b, BondLosses<Lanes>& sum) {
-  LastForces<Lanes> last{bonds.template load<Column::spring_force>(b),
-                         bonds.template load<Column::viscous_force>(b),
-                         bonds.template load<Column::shear_factor>(b)};
-  const BondLosses<Lanes> loss =
-      losses_of_step<features>(law, bond, pair, elongation(ends, pair, dt), before, h, action, last);
-  bonds.template store<Column::spring_force>(b, last.spring);
-  bonds.template store<Column::viscous_force>(b, last.viscous);
-  bonds.template store<Column::shear_factor>(b, last.shear_factor);
+  const Lanes stretch = elongation(ends, pair, dt);
+  Lanes viscous(0.0);
+  if constexpr (features.contact_damping) viscous = bonds.template load<Column::viscous_force>(b);
+  LastForces<Lanes> last = forces_before<features>(bond, pair, stretch, before, viscous);
+  if (is_damaged<features>(before)) {
+    last.spring = bonds.template load<Column::spring_force>(b);
+    last.shear_factor = bonds.template load<Column::shear_factor>(b);
+  }
+  const BondLosses<Lanes> loss = losses_of_step<features>(law, bond, pair, stretch, before, h, action, last);
+  if constexpr (features.contact_damping) bonds.template store<Column::viscous_force>(b, last.viscous);
+  if (is_damaged<features>(h)) {
+    bonds.template store<Column::spring_force>(b, last.spring);
+    bonds.template store<Column::shear_factor>(b, last.shear_factor);
+  }
   sum.plastic += loss.plastic;
   sum.viscous += loss.viscous;
   sum.damage += loss.damage;
