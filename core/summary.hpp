@@ -58,9 +58,10 @@ struct RunSummary {
   std::optional<double> energy_error;        ///< of the work put in
   std::optional<double> kinetic_ratio;       ///< kinetic over stored, largest up to the peak
   std::optional<double> platen_mismatch;     ///< |top - bottom| over the peak, largest up to the peak
-  std::string state_hash;                    ///< 16 hex digits
-  std::string stopped_by;                    ///< "strain", "peak drop", "interrupted", ...
-  std::vector<std::string> warnings;         ///< one line each; empty when all is well
+  std::optional<double> rate_error, step_error, sampling_error;  ///< of the peak: see ErrorEstimate
+  std::string state_hash;                                        ///< 16 hex digits
+  std::string stopped_by;             ///< "strain", "peak drop", "interrupted", ...
+  std::vector<std::string> warnings;  ///< one line each; empty when all is well
 };
 
 /// Straight line through the peaks of a series: shear strength over pressure.

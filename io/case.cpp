@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "io/accuracy.hpp"
 #include "io/case_material.hpp"
 #include "io/case_write.hpp"
 #include "io/nearest.hpp"
@@ -247,9 +248,15 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   }
   const Layer base = material_base(layers);
   const std::string law = law_of(base);
-  for (const LawStandard& standard : facts_of(law).standards)
-    if (const Key& key = *find_key(standard.key); test != "pack" && !layer.contains(key.name))
-      layer[std::string(key.name)] = {read_standard_text(key, standard.value), ""};
+  const auto take = [&](std::string_view name, std::string_view value) {
+    const Key& key = *find_key(name);
+    if (test != "pack" && accepts(key, test) && !layer.contains(key.name))
+      layer[std::string(key.name)] = {read_standard_text(key, value), ""};
+  };
+  for (const LawStandard& standard : facts_of(law).standards) take(standard.key, standard.value);
+  if (const auto accuracy = layer.find("time.accuracy"); accuracy != layer.end())
+    for (const RecipeStandard& standard : accuracy_recipe(accuracy->second.reading.word))
+      take(standard.key, standard.value);
   const Key& dimensions = *find_key("specimen.dimensions");
   const auto asked = layer.find(dimensions.name);
   const bool plane =

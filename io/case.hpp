@@ -64,6 +64,7 @@ struct Case {
   DampingCase damping;
   FeatureCase features;
   TestCase test;
+  std::string accuracy = "normal";
   double safety = 0.8;
   bool mass_scaling = false;
   double mass_factor = 1.5;  ///< of the total mass, where masses are scaled

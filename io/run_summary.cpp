@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/error_estimate.hpp"
 #include "core/state_hash.hpp"
 #include "core/strength.hpp"
 
@@ -149,6 +150,13 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
     return run;
   }
   warn_if_dynamic(f, run);
+  if (run.peak_reached) {
+    const ErrorEstimate e =
+        estimate_error(f.kinetic_ratio, f.platen_mismatch, run.energy_error, run.particles);
+    run.rate_error = e.rate;
+    run.step_error = e.step;
+    run.sampling_error = e.sampling;
+  }
   return run;
 }
 

@@ -99,6 +99,18 @@ std::string times_of(const std::vector<RunSummary>& runs) {
   return text + '\n';
 }
 
+/// What the peak of a run may be off by, beside the time that it took.
+std::string error_of(const RunSummary& run) {
+  if (!is_known(run.rate_error)) return "";
+  const auto percent = [](double part) { return fmt::format("{:.2g} %", 100.0 * part); };
+  return fmt::format(
+      "peak at {:.4g} MPa: error from the rate about {}, from the step {}, over packings {} "
+      "(one standard deviation); in {:.1f} s\n",
+      run.confinement_Pa / 1e6, percent(*run.rate_error),
+      is_known(run.step_error) ? percent(*run.step_error) : "not known without the energy ledger",
+      percent(*run.sampling_error), run.run_time_s);
+}
+
 }  // namespace
 
 std::string format_summary_table(const SeriesSummary& series, const std::filesystem::path& folder) {
@@ -115,6 +127,7 @@ std::string format_summary_table(const SeriesSummary& series, const std::filesys
       fmt::format_to(out, "warning, run {}: {}\n", run, warning);
     }
   }
+  for (const RunSummary& run : series.runs) text += error_of(run);
   text += times_of(series.runs);
   const auto place = [&](std::string_view name) { return (folder / name).string(); };
   fmt::format_to(out, "files: {}, {}, {}, {} (ParaView)\n", place("summary.json"), place("curve-K.csv"),

@@ -505,17 +505,33 @@ TEST_CASE("case: what a later version brings is refused by name") {
     const char *table, *line, *text;
   };
   for (const Later& l : {
-           Later{"time", "accuracy = \"fast\"",
-                 "time.accuracy \"fast\" is not in this version; valid: \"normal\""},
-           {"time", "accuracy = \"reference\"",
-            "time.accuracy \"reference\" is not in this version; valid: \"normal\""},
-           {"material", "law = \"parallel-bond\"",
-            "material.law \"parallel-bond\" is not in this version; valid: \"dempack\", \"exponential\", "
-            "\"kdem\""},
+           Later{
+               "material", "law = \"parallel-bond\"",
+               "material.law \"parallel-bond\" is not in this version; valid: \"dempack\", \"exponential\", "
+               "\"kdem\""},
            {"run", "checkpoint_every = \"5 min\"",
             "run.checkpoint_every \"5 min\" is not in this version; leave it out"},
        })
     says(complaint(std::string("[") + l.table + "]\n" + l.line + "\n"), std::string("c.toml:2: ") + l.text);
+}
+
+TEST_CASE("case: a recipe of time.accuracy sets only what the case does not name") {
+  const Case usual = load(good), normal = load(good + "[time]\naccuracy = \"normal\"\n");
+  CHECK(normal.safety == usual.safety);
+  CHECK(normal.damping.scheme == DampingScheme::explicit_);
+  CHECK(!normal.mass_scaling);
+  CHECK(normal.features.energy_ledger);
+  const Case fast = load(good + "[time]\naccuracy = \"fast\"\n");
+  CHECK(fast.damping.scheme == DampingScheme::summed);
+  CHECK(fast.mass_scaling);
+  CHECK(!fast.features.energy_ledger);
+  const Case mine =
+      load(good + "[damping]\nscheme = \"capped\"\n[time]\naccuracy = \"fast\"\nmass_scaling = false\n");
+  CHECK(mine.damping.scheme == DampingScheme::capped);
+  CHECK(!mine.mass_scaling);
+  CHECK(mine.safety == fast.safety);
+  CHECK(load(good + "[time]\naccuracy = \"reference\"\n").safety < usual.safety);
+  says(complaint(good + "[time]\naccuracy = \"quick\"\n"), "time.accuracy \"quick\"");
 }
 
 TEST_CASE("case: areas of the bonds - those of the strengths beside them") {
