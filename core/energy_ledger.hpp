@@ -63,7 +63,7 @@ struct EnergyLedger {
   double worst_loss = 0;     ///< J, by which a channel that can only grow has been below zero
 };
 
-/// @param bonds  padded
+/// Empty books for the bonds of a world.
 EnergyLedger open_ledger(const World& world);
 
 /// After the list of contacts was made anew.

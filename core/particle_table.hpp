@@ -12,7 +12,7 @@ namespace breccia {
 #define BRECCIA_PARTICLE_COLUMNS(COLUMN)                                                                              \
   COLUMN(Gid,    gid,                "1",      identity,  always,   "global id, as in the specimen's file")           \
   COLUMN(double, radius,             "m",      reference, always,   "radius of the sphere")                           \
-  COLUMN(double, mass,               "kg",     reference, always,   "density times volume")                           \
+  COLUMN(double, mass,               "kg",     reference, always,   "density times volume, and more where masses are scaled")  \
   COLUMN(Vec3,   reference_position, "m",      reference, always,   "centre when the bonds were made")                \
   COLUMN(Vec3,   position,           "m",      state,     always,   "centre")                                         \
   COLUMN(Vec3,   velocity,           "m/s",    state,     always,   "of the centre, half a step before position")     \
