@@ -17,7 +17,7 @@ RUN = ("confinement_Pa peak_stress_Pa peak_deviator_Pa peak_reached strain_at_pe
        "poisson_ratio crack_initiation_stress_Pa crack_damage_stress_Pa tensile_strength_Pa alpha particles bonds coordination "
        "dropped_bonds short_bonds broken_tension broken_shear steps time_step_s lowest_time_step_s "
        "critical_time_step_s step_estimates mass_factor scaled_particles run_time_s phases_s bond_updates_per_s "
-       "bond_pass_per_s energy_error kinetic_ratio platen_mismatch state_hash stopped_by warnings").split()
+       "bond_pass_per_s energy_error rate_error step_error sampling_error kinetic_ratio platen_mismatch state_hash stopped_by warnings").split()
 
 
 class Ucs(ProgramTest):

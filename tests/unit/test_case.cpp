@@ -531,7 +531,8 @@ TEST_CASE("case: a recipe of time.accuracy sets only what the case does not name
   CHECK(!mine.mass_scaling);
   CHECK(mine.safety == fast.safety);
   CHECK(load(good + "[time]\naccuracy = \"reference\"\n").safety < usual.safety);
-  says(complaint(good + "[time]\naccuracy = \"quick\"\n"), "time.accuracy \"quick\"");
+  says(complaint(good + "[time]\naccuracy = \"quick\"\n"),
+       "c.toml:8: time.accuracy: unknown \"quick\"; valid: \"fast\", \"normal\", \"reference\"");
 }
 
 TEST_CASE("case: areas of the bonds - those of the strengths beside them") {
