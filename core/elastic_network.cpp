@@ -19,17 +19,14 @@ void put(Eigen::VectorXd& v, std::size_t at, const Vec3& f) {
   v[k] = f.x, v[k + 1] = f.y, v[k + 2] = f.z;
 }
 
-/// Force on one end (`sign` +1: lo) of a spring and its torque there.
-void add_spring(const ElasticNetwork::Spring& s, bool is_hi, const Eigen::VectorXd& u, Vec3& force,
-                Vec3& torque) {
-  const std::size_t lo = 6 * std::size_t{s.lo}, hi = 6 * std::size_t{s.hi};
-  const Vec3 turn = s.arm_lo * three(u, lo + 3) + s.arm_hi * three(u, hi + 3);
-  const Vec3 relative = three(u, hi) - three(u, lo) - cross(turn, s.normal);
-  const double along = dot(relative, s.normal);
-  const Vec3 f = (s.k_n * along) * s.normal + s.k_s * (relative - along * s.normal);
-  const Vec3 moment = cross(s.normal, f);
-  force += is_hi ? f : -f;  // K u is what must be applied: minus the spring's force on the end
-  torque -= (is_hi ? s.arm_hi : s.arm_lo) * moment;
+/// What a spring pulls its lower end with.
+Vec3 pull(const ElasticNetwork& net, std::size_t k, const Eigen::VectorXd& u) {
+  const auto& [lo, hi, k_n, k_s] = net.springs[k];
+  const auto& [normal, arm_ratio] = net.branches[k];
+  const std::size_t at_lo = 6 * std::size_t{lo}, at_hi = 6 * std::size_t{hi};
+  const Vec3 turn = arm_ratio * (net.radius[lo] * three(u, at_lo + 3) + net.radius[hi] * three(u, at_hi + 3));
+  const Vec3 relative = three(u, at_hi) - three(u, at_lo) - cross(turn, normal);
+  return (k_n - k_s) * dot(relative, normal) * normal + k_s * relative;
 }
 
 }  // namespace
@@ -40,7 +37,9 @@ ElasticNetwork elastic_network(const ParticleTable& p, const BondTable& b, const
   ElasticNetwork net;
   net.particles = p.size;
   net.threads = threads;
+  net.radius.assign(p.radius.begin(), p.radius.end());
   net.springs.resize(b.size + c.size);
+  net.branches.resize(net.springs.size());
   net.first_entry.assign(net.particles + 1, 0);
   for (std::size_t k = 0; k < net.springs.size(); ++k) {
     const bool bond = k < b.size;
@@ -49,8 +48,8 @@ ElasticNetwork elastic_network(const ParticleTable& p, const BondTable& b, const
     const double distance = norm(l), length = bond ? b.rest_length[k] : distance;
     const auto [normal, shear] = constants(k);
     const double arm_ratio = rotation ? length / (p.radius[lo] + p.radius[hi]) : 0.0;
-    net.springs[k] = {
-        lo, hi, (1.0 / distance) * l, normal, shear, arm_ratio * p.radius[lo], arm_ratio * p.radius[hi]};
+    net.springs[k] = {lo, hi, normal, shear};
+    net.branches[k] = {(1.0 / distance) * l, arm_ratio};
     ++net.first_entry[lo + 1];
     ++net.first_entry[hi + 1];
   }
@@ -72,14 +71,23 @@ void set_constants(ElasticNetwork& net, const std::function<SpringConstants(std:
   }
 }
 
-void apply_stiffness(const ElasticNetwork& net, const Eigen::VectorXd& u, Eigen::VectorXd& forces) {
+void apply_stiffness(const ElasticNetwork& net, const Eigen::VectorXd& u, std::vector<Vec3>& pulls,
+                     Eigen::VectorXd& forces) {
+  pulls.resize(net.springs.size());
+  for_rows(net.springs.size(), net.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) pulls[k] = pull(net, k, u);
+  });
   for_rows(net.particles, net.threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
-      Vec3 force, torque;
-      for (std::uint32_t e = net.first_entry[p]; e < net.first_entry[p + 1]; ++e)
-        add_spring(net.springs[net.entries[e] >> 1], net.entries[e] & 1u, u, force, torque);
+      Vec3 force, moment;
+      for (std::uint32_t e = net.first_entry[p]; e < net.first_entry[p + 1]; ++e) {
+        const std::size_t k = net.entries[e] >> 1;
+        // K u is what must be applied: minus the spring's pull on the end
+        force += net.entries[e] & 1u ? pulls[k] : -pulls[k];
+        moment += net.branches[k].arm_ratio * cross(net.branches[k].normal, pulls[k]);
+      }
       put(forces, 6 * p, force);
-      put(forces, 6 * p + 3, torque);
+      put(forces, 6 * p + 3, -net.radius[p] * moment);
     }
   });
 }
@@ -89,11 +97,13 @@ namespace {
 /// Diagonal of K, for the preconditioner.
 Eigen::VectorXd stiffness_diagonal(const ElasticNetwork& net) {
   Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * net.particles));
-  for (const auto& s : net.springs) {
-    const Vec3 n2{s.normal.x * s.normal.x, s.normal.y * s.normal.y, s.normal.z * s.normal.z};
+  for (std::size_t spring = 0; spring < net.springs.size(); ++spring) {
+    const auto& s = net.springs[spring];
+    const auto& [normal, arm_ratio] = net.branches[spring];
+    const Vec3 n2{normal.x * normal.x, normal.y * normal.y, normal.z * normal.z};
     for (const bool hi : {false, true}) {
       const auto at = static_cast<Eigen::Index>(6 * (hi ? s.hi : s.lo));
-      const double arm = hi ? s.arm_hi : s.arm_lo;
+      const double arm = arm_ratio * net.radius[hi ? s.hi : s.lo];
       const double squares[3] = {n2.x, n2.y, n2.z};
       for (int k = 0; k < 3; ++k) {
         d[at + k] += s.k_n * squares[k] + s.k_s * (1.0 - squares[k]);
@@ -148,7 +158,8 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
   // there
   const auto free = (inverse_diagonal.array() > 0.0).cast<double>().matrix().eval();
   Eigen::VectorXd force(n), residual(n), direction(n), image(n);
-  apply_stiffness(net, u, force);
+  std::vector<Vec3> pulls;
+  apply_stiffness(net, u, pulls, force);
   residual = -force.cwiseProduct(free);
   Eigen::VectorXd z = residual.cwiseProduct(inverse_diagonal);
   direction = z;
@@ -157,7 +168,7 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
   ElasticResponse answer;
   const long limit = 20000;
   while (residual.cwiseAbs().maxCoeff() > 1e-7 * start && answer.iterations < limit) {
-    apply_stiffness(net, direction, image);
+    apply_stiffness(net, direction, pulls, image);
     const double step = rho / direction.dot(image);
     u += step * direction;
     residual -= step * image.cwiseProduct(free);
@@ -170,7 +181,7 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
   if (answer.iterations == limit)
     fail<BadInput>("bonds.alpha: the elastic probe did not converge; give alpha a number or \"affine\"");
 
-  apply_stiffness(net, u, force);
+  apply_stiffness(net, u, pulls, force);
   double reaction = 0.0;
   for (std::size_t row = a.particles.free; row < net.particles; ++row)
     reaction += (row < a.first_top ? 0.5 : -0.5) * force[static_cast<Eigen::Index>(6 * row + 2)];

@@ -16,11 +16,15 @@ namespace breccia {
 struct ElasticNetwork {
   struct Spring {
     Row lo, hi;
+    double k_n, k_s;  ///< N/m
+  };
+  struct Branch {
     Vec3 normal;
-    double k_n, k_s;        ///< N/m
-    double arm_lo, arm_hi;  ///< m
+    double arm_ratio;  ///< the arm at either end is this times its radius
   };
   std::vector<Spring> springs;
+  std::vector<Branch> branches;
+  std::vector<double> radius;                       ///< m, per particle
   std::vector<std::uint32_t> first_entry, entries;  ///< per particle: spring << 1 | particle is hi
   std::size_t particles = 0;
   int threads = 1;
@@ -40,9 +44,11 @@ ElasticNetwork elastic_network(const ParticleTable& particles, const BondTable& 
 /// The same network with other stiffnesses.
 void set_constants(ElasticNetwork& network, const std::function<SpringConstants(std::size_t)>& constants);
 
-/// forces = K displacements; both of 6 * particles.
+/// forces = K displacements; both of 6 * particles. Each spring is stretched once; particles then add up what
+/// theirs pass on, in the same order for any number of threads.
+/// @param pulls  N, of each spring: room that is kept between calls
 void apply_stiffness(const ElasticNetwork& network, const Eigen::VectorXd& displacements,
-                     Eigen::VectorXd& forces);
+                     std::vector<Vec3>& pulls, Eigen::VectorXd& forces);
 
 /// What the assembly does when its layers are pushed together: the answer of a static linear solve.
 struct ElasticResponse {

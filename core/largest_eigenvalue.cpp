@@ -88,6 +88,11 @@ LargestEigenvalue largest_eigenvalue(
   }
 }
 
+double largest_eigenvalue(const Eigen::MatrixXd& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[matrix.rows() - 1];
+}
+
 int applications_for(Eigen::Index size, double error, double chance) {
   const double needed = std::log(1.648 * std::sqrt(static_cast<double>(size)) / chance);
   return static_cast<int>(std::ceil(0.5 * (needed / std::sqrt(error) + 1.0)));

@@ -25,6 +25,9 @@ LargestEigenvalue largest_eigenvalue(
     Eigen::Index size, const std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& image)>& apply,
     const LanczosEffort& effort, int threads);
 
+/// Of a small symmetric matrix, all of it given.
+double largest_eigenvalue(const Eigen::MatrixXd& matrix);
+
 /// Applications after which the value is short by more than the fraction `error` with a probability below
 /// `chance`, whatever the spectrum is, of a random vector: 1.648 sqrt(n) exp(-sqrt(error) (2 k - 1))
 /// (Kuczynski and Wozniakowski 1992). A mode of one light particle, or of one cluster apart from

@@ -83,15 +83,17 @@ void keep_step(World& w) {
   StepWatch& watch = w.step_watch;
   const std::vector<std::size_t> added = uncounted(w.contacts, watch.counted);
   if (added.empty() || stability_number_bound(scene, added, w.dt) <= watch.room) return;
-  ++watch.looks;
   watch.counted = pairs_of(w.contacts);
-  watch.room = room_below_limit(stability_number(scene, w.dt));
-  if (watch.room >= 0.0) return;
-  w.critical_dt = std::min(w.critical_dt, critical_time_step(scene));
-  w.dt = std::min(w.dt, w.options.safety * w.critical_dt);
-  set_bond_dashpots(w);
-  set_contact_dashpots(w);
-  watch.room = room_below_limit(stability_number(scene, w.dt));
+  while (true) {
+    ++watch.looks;
+    const StepLook look = look_at_step(scene, w.dt);
+    watch.room = room_below_limit(look.number);
+    if (watch.room >= 0.0) return;
+    w.critical_dt = std::min(w.critical_dt, look.critical);
+    w.dt = std::min(w.dt, w.options.safety * w.critical_dt);
+    set_bond_dashpots(w);
+    set_contact_dashpots(w);
+  }
 }
 
 }  // namespace breccia

@@ -1,7 +1,5 @@
 #include "core/time_step.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -69,7 +67,7 @@ public:
     set_constants(network_, [&](std::size_t k) { return step_constants(scene_, k, dt); });
     const auto apply = [&](const Eigen::VectorXd& x, Eigen::VectorXd& image) {
       in_ = (1.0 + scene_.global_damping) * by_mass_.cwiseProduct(x);
-      apply_stiffness(network_, in_, image);
+      apply_stiffness(network_, in_, pulls_, image);
       image = by_mass_.cwiseProduct(image);
     };
     return largest_eigenvalue(by_mass_.size(), apply, effort, scene_.threads);
@@ -80,6 +78,7 @@ private:
   const StepScene& scene_;
   ElasticNetwork network_;
   Eigen::VectorXd by_mass_, in_;
+  std::vector<Vec3> pulls_;
 };
 
 /// Norms of one spring's part of M^-1 K at both ends.
@@ -157,6 +156,17 @@ double stability_number(const StepScene& s, double dt) {
   return ScaledNetwork(s).number(dt, effort_of_run(s.particles.size)).value;
 }
 
+StepLook look_at_step(const StepScene& s, double dt) {
+  ScaledNetwork network(s);
+  const LanczosEffort effort = effort_of_run(s.particles.size);
+  LanczosEffort crude = effort;
+  crude.applications = crude.early;
+  constexpr double shorter = 0.95;
+  const LargestEigenvalue number = network.number(dt, effort), other = network.number(shorter * dt, crude);
+  const double slope = std::clamp(std::log(other.early / number.early) / std::log(shorter), 0.5, 2.0);
+  return {number.value, dt * std::pow((1.0 - number_error) / number.value, 1.0 / slope)};
+}
+
 double stability_number_bound(const StepScene& s, std::span<const std::size_t> contacts, double dt) {
   std::vector<double> sum(s.particles.size, 0.0);
   const ContactTable& c = s.contacts;
@@ -193,8 +203,9 @@ std::vector<double> own_time_steps(const StepScene& s) {
       Block stiffness = Block::Zero();
       for (std::uint32_t e = net.first_entry[row]; e < net.first_entry[row + 1]; ++e) {
         const auto& spring = net.springs[net.entries[e] >> 1];
-        const double arm = net.entries[e] & 1u ? spring.arm_hi : spring.arm_lo;
-        const Eigen::Vector3d n(spring.normal.x, spring.normal.y, spring.normal.z);
+        const auto& [normal, arm_ratio] = net.branches[net.entries[e] >> 1];
+        const double arm = arm_ratio * net.radius[row];
+        const Eigen::Vector3d n(normal.x, normal.y, normal.z);
         const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - n * n.transpose();
         Eigen::Matrix3d turn;  // theta x n
         turn << 0, n.z(), -n.y(), -n.z(), 0, n.x(), n.y(), -n.x(), 0;
@@ -204,9 +215,7 @@ std::vector<double> own_time_steps(const StepScene& s) {
         stiffness.topLeftCorner<3, 3>() += spring.k_n * n * n.transpose();
       }
       const auto roots = by_mass.segment<6>(static_cast<Eigen::Index>(6 * row)).asDiagonal();
-      const Block scaled = roots * stiffness * roots;
-      const double largest =
-          Eigen::SelfAdjointEigenSolver<Block>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5];
+      const double largest = largest_eigenvalue(roots * stiffness * roots);
       steps[row] = largest > 0.0 ? 2.0 / std::sqrt(largest) : infinite;
     }
   });

@@ -32,6 +32,15 @@ struct StepScene {
 /// @returns from below, short by more than 2 % with a probability under 1e-3
 double stability_number(const StepScene& scene, double dt);
 
+struct StepLook {
+  double number = 0;    ///< stability number of the step in use
+  double critical = 0;  ///< s, where it would be 0.98, since it comes from below: a secant, good near the step in use
+};
+
+/// The stability number of a step in use, and what the step should be instead. Costs some hundred
+/// applications of K.
+StepLook look_at_step(const StepScene& scene, double dt);
+
 /// No more than this times `dt`-fold can be added by the contacts given: a proven bound, by norms. The norm
 /// of one contact's part at either end is summed over the contacts of each particle; no network exceeds the
 /// largest sum of two ends.

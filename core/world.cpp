@@ -124,13 +124,11 @@ double inertia_factor(const World& w) {
 }
 
 BrokenCount count_broken(const World& w) {
-  BrokenCount n;
-  for (std::size_t k = 0; k < w.bonds.size; ++k) {
+  std::vector<BrokenCount> blocks;
+  return sum_rows<BrokenCount>(w.bonds.size, w.options.threads, blocks, [&](std::size_t k) {
     const BondState state = bond_state(w.bonds, k);
-    n.tension += state == BondState::broken_tension;
-    n.shear += state == BondState::broken_shear;
-  }
-  return n;
+    return BrokenCount{std::size_t{state == BondState::broken_tension}, std::size_t{state == BondState::broken_shear}};
+  });
 }
 
 double kinetic_energy(const World& w) {

@@ -94,6 +94,10 @@ double inertia_factor(const World& world);
 
 struct BrokenCount {
   std::size_t tension = 0, shear = 0;
+  BrokenCount& operator+=(const BrokenCount& o) {
+    tension += o.tension, shear += o.shear;
+    return *this;
+  }
 };
 BrokenCount count_broken(const World& world);
 

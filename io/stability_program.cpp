@@ -54,7 +54,7 @@ bool run_study(const StabilityOptions& options) {
         write_stability_json(options.out / "stability.json", results);
       },
       tbb::simple_partitioner{});
-  say(progress, "\n" + format_stability_table(results));
+  say(progress, fmt::format("\n{}", format_stability_table(results)));
   say(progress, fmt::format("written: {}, {}", (options.out / "stability.csv").string(),
                             (options.out / "stability.json").string()));
   return std::none_of(results.parts.begin(), results.parts.end(),

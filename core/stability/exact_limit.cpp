@@ -25,9 +25,10 @@ Eigen::MatrixXd scaled_matrix(const World& w, const std::function<SpringConstant
   }
   Eigen::MatrixXd matrix(n, n);
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(n), image(n);
+  std::vector<Vec3> pulls;
   for (Eigen::Index k = 0; k < n; ++k) {
     unit[k] = by_mass[k];
-    apply_stiffness(net, unit, image);
+    apply_stiffness(net, unit, pulls, image);
     matrix.col(k) = by_mass.cwiseProduct(image);
     unit[k] = 0.0;
   }

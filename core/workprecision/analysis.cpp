@@ -143,7 +143,7 @@ void check_convergence(Analysis& a) {
   check(r.half_step, "step", "step");
   check(r.half_speed, "platen speed", "speed");
   if (!r.peak_reached)
-    a.warnings.push_back(
+    a.warnings.emplace_back(
         "the reference's stress has not come down: its peak is the largest stress up to test.stop_strain");
 }
 

@@ -182,6 +182,12 @@ TEST_CASE("time step: a packing's estimate lies within 2.5 % below the converged
       CHECK(w.critical_dt < exact);
       CHECK(w.critical_dt > 0.975 * exact);
       CHECK(stability_number(scene_of(w), exact) == doctest::Approx(1).epsilon(0.02));
+      for (const double beyond : {1.02, 1.15}) {
+        const StepLook look = look_at_step(scene_of(w), beyond * exact);
+        CHECK(look.number == stability_number(scene_of(w), beyond * exact));
+        CHECK(look.critical < exact * 1.003);
+        CHECK(look.critical > 0.97 * exact);
+      }
     }
 }
 
