@@ -94,4 +94,9 @@ void keep_step(World& w) {
   watch.room = room_below_limit(stability_number(scene, w.dt));
 }
 
+void set_dashpots(World& w) {
+  set_bond_dashpots(w);
+  set_contact_dashpots(w);
+}
+
 }  // namespace breccia
