@@ -124,7 +124,7 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
     contacts.row_hi[k] = hi;
     contacts.stiffness[k] = material.young * material.alpha *
                             (material.space == Space::plane ? 2.0 * smaller : pi * smaller * smaller) / touch;
-    if (features.rotation) contacts.arm_offset[k] = 0.5 * (p.radius[lo] - p.radius[hi]) / touch;
+    if (features.rotation) contacts.arm_offset[k] = contact_arm_offset(p.radius[lo], p.radius[hi]);
     // pairs that overlap unbonded from the start are free of stress where they are
     contacts.free_length[k] = first_list ? std::min(touch, distance) : touch;
     const std::pair<Row, Row> key = std::minmax(lo, hi);

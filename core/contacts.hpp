@@ -30,6 +30,11 @@ ContactSearch make_contact_search(const Assembly& assembly, bool enabled, double
 bool search_is_due(ContactSearch& search, const ParticleTable& particles, std::uint64_t step, double dt,
                    int threads);
 
+/// See the column arm_offset.
+inline double contact_arm_offset(double radius_lo, double radius_hi) {
+  return 0.5 * (radius_lo - radius_hi) / (radius_lo + radius_hi);
+}
+
 /// What a new contact is made of.
 struct ContactMaterial {
   double young = 0;  ///< Pa

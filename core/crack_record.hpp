@@ -9,7 +9,8 @@
 namespace breccia {
 
 struct Crack {
-  double time = 0;  ///< s
+  double time = 0;          ///< s
+  double axial_strain = 0;  ///< of the row of the curve in which it broke
   Gid gid_lo = 0, gid_hi = 0;
   Vec3 position;  ///< m, middle of the bond
   Vec3 normal;    ///< from lo to hi

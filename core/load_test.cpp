@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/guards.hpp"
+#include "core/instruments.hpp"
 
 namespace breccia {
 namespace {
@@ -21,65 +21,6 @@ double eased(double t, double duration) {
 /// s, for a wave to run from end to end.
 double crossing_time(const World& w, const Assembly& a) {
   return a.length() / std::sqrt(w.material.young_modulus / w.material.density);
-}
-
-/// The instruments: gauges on the specimen, and where everything stood when loading began.
-struct Instruments {
-  Gauge axial, lateral;
-  double axial_zero = 0, lateral_zero = 0, approach_zero = 0, shear_zero = 0;
-  double free_length = 0;  ///< m, between the held layers
-  double sign = 1;         ///< -1: tension counts positive
-  int lateral_directions = 2;
-  Loading loading = Loading::compression;
-  Grip grip = Grip::ends;
-};
-
-double gauge_now(const World& w, const Gauge& g) {
-  return read_gauge(g, w.particles.position, w.particles.reference_position);
-}
-
-Instruments instruments_of(const World& w, const Assembly& a, const LoadTest& test) {
-  Instruments in;
-  in.loading = test.loading;
-  in.grip = a.grip;
-  in.sign = test.loading == Loading::tension ? -1.0 : 1.0;
-  in.lateral_directions = a.space == Space::plane ? 1 : 2;
-  if (a.grip == Grip::ends) in.axial = axial_gauge(a);
-  if (a.grip != Grip::halves) in.lateral = lateral_gauge(a);
-  in.axial_zero = gauge_now(w, in.axial);
-  in.lateral_zero = gauge_now(w, in.lateral);
-  in.approach_zero = approach(w.platens);
-  in.shear_zero = shear_travel(w.platens);
-  in.free_length = a.length() - 2.0 * a.layer;
-  return in;
-}
-
-Reading read(World& w, const Instruments& in) {
-  const Lap lap(w.phases, Phase::measure);
-  Reading r;
-  r.time = w.time;
-  r.confining_stress = w.confinement.pressure;
-  if (in.loading == Loading::shear) {
-    // of a shear box: the strain is the shift over its width, the stress is that of the band
-    r.axial_strain = r.platen_strain = (shear_travel(w.platens) - in.shear_zero) / w.body.diameter;
-    r.axial_stress = shear_stress(w.platens);
-    r.confining_stress = axial_stress(w.platens);
-    r.radial_strain = CurveRow::untracked;
-    r.volumetric_strain = (approach(w.platens) - in.approach_zero) / w.body.height;  // dilation is negative
-    r.mismatch = mismatch(w.platens);
-    return r;
-  }
-  r.platen_strain = in.sign * (approach(w.platens) - in.approach_zero) / in.free_length;
-  r.axial_strain =
-      in.axial.rows.empty() ? r.platen_strain : in.sign * (gauge_now(w, in.axial) - in.axial_zero);
-  r.radial_strain =
-      in.lateral.rows.empty() ? CurveRow::untracked : in.sign * (gauge_now(w, in.lateral) - in.lateral_zero);
-  r.axial_stress = in.sign * axial_stress(w.platens);
-  // across a disc strains are not uniform: no volume follows from them
-  r.volumetric_strain = in.grip == Grip::strips ? CurveRow::untracked
-                                                : r.axial_strain + in.lateral_directions * r.radial_strain;
-  r.mismatch = mismatch(w.platens);
-  return r;
 }
 
 /// Broken bonds and energies at the end of a row.
@@ -104,59 +45,69 @@ CurveRow state_row(World& w) {
   return row;
 }
 
-/// Tells a program how far a run is, a few times a second, and what has cracked.
-class Teller {
-public:
-  explicit Teller(const LoadHooks& hooks) : hooks_(hooks) {}
-  void tell(int stage, double fraction, const CurveRow& row) {
-    const auto now = Clock::now();
-    if (!hooks_.progress || now - last_ < std::chrono::milliseconds(100)) return;
-    last_ = now;
-    hooks_.progress(stage, fraction, row);
-  }
-  void tell_cracks(World& w, const CurveRow& row) {
-    const auto& cracks = w.cracks.cracks;
-    if (!hooks_.cracks || cracks.size() == told_) return;
-    const Lap lap(w.phases, Phase::output);
-    hooks_.cracks(std::span(cracks).subspan(told_), row);
-    told_ = cracks.size();
-  }
-
-private:
-  const LoadHooks& hooks_;
-  Clock::time_point last_{};
-  std::size_t told_ = 0;
-};
-
-/// Pictures of the state, evenly spaced over the run.
-class Photographer {
-public:
-  Photographer(const LoadTest& test, const LoadHooks& hooks) : frames_(test.frames), hooks_(hooks) {}
-  void frame_if_due(World& w, double done, const CurveRow& row, bool last) {
-    if (frames_ <= 0 || !hooks_.frame || (!last && done * frames_ < taken_)) return;
-    const Lap lap(w.phases, Phase::output);
-    hooks_.frame(w, row);
-    ++taken_;
-  }
-
-private:
-  int frames_, taken_ = 0;
-  const LoadHooks& hooks_;
-};
-
 /// What a run needs at hand.
 struct Run {
   World& w;
   const Assembly& assembly;
   const LoadTest& test;
   const LoadHooks& hooks;
+  LoadState& state;
   LoadResult& result;
-  Teller teller;
-  Photographer photographer;
-  Guards guards;
+  double run_time_before = 0;  ///< s, of the part up to the checkpoint that this one goes on from
+  Clock::time_point begun = Clock::now();
+  Clock::time_point told{};  ///< when the program was last told
 
   bool interrupted() const { return hooks.interrupted && hooks.interrupted(); }
 };
+
+void enter(Run& run, Stage stage) {
+  run.state.stage = stage;
+  run.state.stage_start = run.w.time;
+}
+
+void note_run_time(Run& run) {
+  run.result.run_time =
+      run.run_time_before + std::chrono::duration<double>(Clock::now() - run.begun).count();
+}
+
+/// Tells a program how far a run is, a few times a second, and what has cracked.
+void tell(Run& run, int stage, double fraction, const CurveRow& row) {
+  std::vector<Crack>& cracks = run.w.cracks.cracks;
+  std::size_t& told = run.state.cracks_told;
+  if (run.hooks.cracks && cracks.size() > told) {
+    const Lap lap(run.w.phases, Phase::output);
+    const std::span fresh = std::span(cracks).subspan(told);
+    for (Crack& crack : fresh) crack.axial_strain = row.axial_strain;
+    run.hooks.cracks(fresh);
+    told = cracks.size();
+  }
+  const auto now = Clock::now();
+  if (!run.hooks.progress || now - run.told < std::chrono::milliseconds(100)) return;
+  run.told = now;
+  run.hooks.progress(stage, fraction, row);
+}
+
+/// Pictures of the state, evenly spaced over the run, and one at its end.
+void frame_if_due(Run& run, double done, const CurveRow& row, bool last) {
+  const int frames = run.test.frames;
+  if (frames <= 0 || !run.hooks.frame) return;
+  if (!last && done * frames < static_cast<double>(run.state.frames)) return;
+  const Lap lap(run.w.phases, Phase::output);
+  run.hooks.frame(run.w, run.state.frames++, row);
+}
+
+/// @returns true when the run is to end here, interrupted
+bool checkpoint_if_due(Run& run) {
+  const bool interrupted = run.interrupted();
+  const bool due = run.hooks.checkpoint_due && run.hooks.checkpoint_due();
+  if (run.hooks.checkpoint && (interrupted || due)) {
+    const Lap lap(run.w.phases, Phase::checkpoint);
+    note_run_time(run);
+    run.hooks.checkpoint(run.w, run.state, run.result);
+  }
+  if (interrupted) run.result.stopped = Stopped::interrupted;
+  return interrupted;
+}
 
 /// The pressure on the mantle and on the platens; a shear box has it on its lid alone.
 void set_pressure(const Run& run, double pressure) {
@@ -173,7 +124,8 @@ bool press_hydrostatically(Run& run) {
   w.platens.servo = true;
   double stress = 0.0;  // mean since the last check
   constexpr int between_checks = 50;
-  const double start = w.time;
+  if (run.state.stage == Stage::not_begun) enter(run, Stage::pressing);
+  const double start = run.state.stage_start;
   for (int k = 1;; ++k) {
     set_pressure(run, pressure * eased(w.time - start, rise));
     advance(w);
@@ -181,12 +133,11 @@ bool press_hydrostatically(Run& run) {
     stress += axial_stress(w.platens) / between_checks;
     if (k % between_checks != 0) continue;
     CurveRow row = state_row(w);
-    check(run.guards, w, row.kinetic_J, row.stored_J);
+    check(run.state.guards, w, row.kinetic_J, row.stored_J);
     row.time_s = w.time;
     row.axial_stress_Pa = stress;
     const double since = w.time - start;
-    run.teller.tell(1, std::min(1.0, since / (2.0 * rise)), row);
-    run.teller.tell_cracks(w, row);
+    tell(run, 1, std::min(1.0, since / (2.0 * rise)), row);
     if (since > rise && row.kinetic_J < 1e-4 * row.stored_J && std::abs(stress - pressure) < 0.005 * pressure)
       break;
     if (since > patience) {
@@ -196,7 +147,7 @@ bool press_hydrostatically(Run& run) {
                       pressure * 1e-6, patience, row.kinetic_J / row.stored_J, stress * 1e-6));
       break;
     }
-    if (run.interrupted()) return false;
+    if (checkpoint_if_due(run)) return false;
     stress = 0.0;
   }
   // the lid of a shear box stays under its pressure
@@ -206,31 +157,28 @@ bool press_hydrostatically(Run& run) {
 
 double deviator(const CurveRow& row) { return row.axial_stress_Pa - row.confining_stress_Pa; }
 
-/// Where the platens are going: on, back while the specimen is unloaded, on again.
-struct Direction {
-  double sense = 1;      ///< -1 while unloading
-  std::size_t next = 0;  ///< in unload_at
-  double turned_at = 0;  ///< platen strain at which the last unloading began
-  double load = 0;       ///< Pa, deviator there
+bool on_envelope(const Direction& d, const CurveRow& row) {
+  return d.sense > 0.0 && row.platen_strain >= d.turned_at;
+}
 
-  bool on_envelope(const CurveRow& row) const { return sense > 0.0 && row.platen_strain >= turned_at; }
-
-  void follow(const LoadTest& test, const CurveRow& row, LoadResult& result) {
-    if (sense > 0.0 && next < test.unload_at.size() && row.platen_strain >= test.unload_at[next]) {
-      sense = -1.0;
-      turned_at = row.platen_strain;
-      load = deviator(row);
-      result.cycles.push_back({row.time_s, 0.0});
-    } else if (sense < 0.0 && deviator(row) <= test.unload_to * load) {
-      sense = 1.0;
-      ++next;
-      result.cycles.back().reloaded = row.time_s;
-    }
+/// Unloads where the test asks for it, and loads again.
+void follow(Run& run, const CurveRow& row) {
+  const LoadTest& test = run.test;
+  Direction& d = run.state.direction;
+  std::size_t& next = run.state.next_unloading;
+  if (d.sense > 0.0 && next < test.unload_at.size() && row.platen_strain >= test.unload_at[next]) {
+    d = {-1.0, row.platen_strain, deviator(row)};
+    run.result.cycles.push_back({row.time_s, 0.0});
+  } else if (d.sense < 0.0 && deviator(row) <= test.unload_to * d.load) {
+    d.sense = 1.0;
+    ++next;
+    run.result.cycles.back().reloaded = row.time_s;
   }
-};
+}
 
 /// True when the stress has come down from its peak by the fraction asked for.
-bool has_dropped(const Run& run, double& peak, const CurveRow& row) {
+bool has_dropped(Run& run, const CurveRow& row) {
+  double& peak = run.state.peak;
   const double strength = run.test.loading == Loading::shear ? row.axial_stress_Pa : deviator(row);
   peak = std::max(peak, strength);
   const double fraction = run.test.stop_after_peak;
@@ -252,40 +200,42 @@ void set_speed(World& w, Loading loading, double speed) {
 void load(Run& run) {
   World& w = run.w;
   const LoadTest& test = run.test;
-  const Instruments in = instruments_of(w, run.assembly, test);
+  const bool resumed = run.state.stage == Stage::loading;
+  const Instruments in =
+      make_instruments(w, run.assembly, test, resumed ? &run.state.zeros : nullptr);
+  if (!resumed) {
+    enter(run, Stage::loading);
+    run.state.zeros = in.zeros;
+  }
   const double width = test.loading == Loading::shear ? w.body.diameter : run.assembly.length();
   const double duration = test.stop_strain * width / (2.0 * test.platen_speed);
   const double crossing = crossing_time(w, run.assembly);
   const double ramp = std::max(2.0 * crossing, 0.05 * duration);
-  const double start = w.time;
-  const auto gone = [&] {
-    return test.loading == Loading::shear ? shear_travel(w.platens) - in.shear_zero
-                                          : in.sign * (approach(w.platens) - in.approach_zero);
-  };
+  const double start = run.state.stage_start;
   Recorder& recorder = run.result.record;
-  Direction direction;
-  double peak = 0.0, speed = 0.0;
-  run.photographer.frame_if_due(w, 0.0, CurveRow{}, false);
+  if (!resumed) frame_if_due(run, 0.0, CurveRow{}, false);
   while (true) {
-    const double wanted = direction.sense * test.platen_speed * eased(w.time - start, ramp);
+    double& speed = run.state.speed;
+    const double wanted = run.state.direction.sense * test.platen_speed * eased(w.time - start, ramp);
     // platens that turn back do it within a crossing or two
     speed = test.unload_at.empty() ? wanted : speed + std::min(1.0, w.dt / crossing) * (wanted - speed);
     set_speed(w, test.loading, speed);
     advance(w);
-    const double done = gone() / (test.stop_strain * width);
+    const double done = travel(w, in) / (test.stop_strain * width);
     if (!add_reading(recorder, read(w, in)) && done < 1.0) continue;
     const CurveRow row = close_row(recorder, state_row(w));
-    check(run.guards, w, row.kinetic_J, row.stored_J);
-    run.teller.tell(2, done, row);
-    run.teller.tell_cracks(w, row);
-    direction.follow(test, row, run.result);
-    const bool dropped = direction.on_envelope(row) && has_dropped(run, peak, row) && w.time - start > ramp;
-    const bool interrupted = run.interrupted();
-    const bool last = done >= 1.0 || dropped || interrupted;
-    run.photographer.frame_if_due(w, done, row, last);
-    if (!last) continue;
-    run.result.stopped = interrupted ? Stopped::interrupted : dropped ? Stopped::peak_drop : Stopped::strain;
-    break;
+    check(run.state.guards, w, row.kinetic_J, row.stored_J);
+    tell(run, 2, done, row);
+    follow(run, row);
+    const bool dropped =
+        on_envelope(run.state.direction, row) && has_dropped(run, row) && w.time - start > ramp;
+    const bool last = done >= 1.0 || dropped;
+    frame_if_due(run, done, row, last);
+    if (last) {
+      run.result.stopped = dropped ? Stopped::peak_drop : Stopped::strain;
+      return;
+    }
+    if (checkpoint_if_due(run)) return;
   }
 }
 
@@ -294,46 +244,56 @@ void load(Run& run) {
 void press_evenly(Run& run) {
   World& w = run.w;
   const LoadTest& test = run.test;
-  const Instruments in = instruments_of(w, run.assembly, test);
+  const bool resumed = run.state.stage == Stage::pressing;
+  const Instruments in =
+      make_instruments(w, run.assembly, test, resumed ? &run.state.zeros : nullptr);
+  if (!resumed) {
+    enter(run, Stage::pressing);
+    run.state.zeros = in.zeros;
+  }
   const double rate = w.material.young_modulus * 2.0 * test.platen_speed / run.assembly.length();
   const double duration = test.confinement / rate,
                ramp = std::max(2.0 * crossing_time(w, run.assembly), 0.05 * duration);
-  const double start = w.time;
+  const double start = run.state.stage_start;
   w.platens.servo = true;
   Recorder& recorder = run.result.record;
-  run.photographer.frame_if_due(w, 0.0, CurveRow{}, false);
-  double pressure = 0.0;
+  if (!resumed) frame_if_due(run, 0.0, CurveRow{}, false);
   while (true) {
+    double& pressure = run.state.pressure;
     pressure = std::min(test.confinement, pressure + w.dt * rate * eased(w.time - start, ramp));
     set_pressure(run, pressure);
     advance(w);
     const double done = pressure / test.confinement;
     if (!add_reading(recorder, read(w, in)) && done < 1.0) continue;
     const CurveRow row = close_row(recorder, state_row(w));
-    check(run.guards, w, row.kinetic_J, row.stored_J);
-    run.teller.tell(1, done, row);
-    run.teller.tell_cracks(w, row);
-    const bool interrupted = run.interrupted(), last = done >= 1.0 || interrupted;
-    run.photographer.frame_if_due(w, done, row, last);
-    if (!last) continue;
-    run.result.stopped = interrupted ? Stopped::interrupted : Stopped::pressure;
-    break;
+    check(run.state.guards, w, row.kinetic_J, row.stored_J);
+    tell(run, 1, done, row);
+    frame_if_due(run, done, row, done >= 1.0);
+    if (done >= 1.0) {
+      run.result.stopped = Stopped::pressure;
+      return;
+    }
+    if (checkpoint_if_due(run)) return;
   }
 }
 
 }  // namespace
 
 void run_load_test(World& w, const Assembly& assembly, const LoadTest& test, const LoadHooks& hooks,
-                   LoadResult& result) {
-  const auto start = Clock::now();
-  Run run{w, assembly, test, hooks, result, Teller(hooks), Photographer(test, hooks), make_guards(w)};
+                   LoadState& state, LoadResult& result) {
+  Run run{w, assembly, test, hooks, state, result, result.run_time};
+  if (state.stage == Stage::not_begun) state.guards = make_guards(w);
   if (test.loading == Loading::hydrostatic)
     press_evenly(run);
-  else if (test.confinement > 0.0 && !press_hydrostatically(run))
-    result.stopped = Stopped::interrupted;
-  else
+  else if (test.confinement == 0.0 || state.stage == Stage::loading || press_hydrostatically(run))
     load(run);
-  result.run_time = std::chrono::duration<double>(Clock::now() - start).count();
+  note_run_time(run);
+}
+
+void run_load_test(World& w, const Assembly& assembly, const LoadTest& test, const LoadHooks& hooks,
+                   LoadResult& result) {
+  LoadState state;
+  run_load_test(w, assembly, test, hooks, state, result);
 }
 
 }  // namespace breccia

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/gauges.hpp"
+#include "core/guards.hpp"
 #include "core/recorder.hpp"
 #include "core/world.hpp"
 
@@ -44,17 +44,56 @@ struct LoadResult {
   std::vector<std::string> warnings;
 };
 
+/// Readings of gauges and platens when loading began.
+struct Zeros {
+  double axial = 0, lateral = 0;  ///< strains
+  double approach = 0, shear = 0;  ///< m
+};
+
+/// Where the platens are going: on, back while the specimen is unloaded, on again.
+struct Direction {
+  double sense = 1;      ///< -1 while unloading
+  double turned_at = 0;  ///< platen strain at which the last unloading began
+  double load = 0;       ///< Pa, deviator there
+};
+
+enum class Stage : std::uint64_t { not_begun, pressing, loading };
+
+/// Where a test stands, between two rows of its curve: with the world and the result, all that it needs to go
+/// on.
+struct LoadState {
+  Stage stage = Stage::not_begun;
+  double stage_start = 0;  ///< s
+  double pressure = 0;     ///< Pa, of an evenly rising one
+  double speed = 0;        ///< m/s, of the platens
+  double peak = 0;         ///< Pa, so far
+  Zeros zeros;
+  Direction direction;
+  std::size_t next_unloading = 0;  ///< in LoadTest::unload_at
+  std::size_t frames = 0;          ///< taken
+  std::size_t cracks_told = 0;
+  Guards guards;
+};
+
 /// What a program does between steps: none of it changes the state, but for columns made for output.
 struct LoadHooks {
   std::function<bool()> interrupted;  ///< true ends the run with what there is
   /// about ten times a second at most: stage (1, 2), fraction of it done, and the present row
   std::function<void(int, double, const CurveRow&)> progress;
-  std::function<void(World&, const CurveRow&)> frame;
-  std::function<void(std::span<const Crack>, const CurveRow&)> cracks;  ///< new ones since the row before
+  std::function<void(World&, std::size_t frame, const CurveRow&)> frame;
+  std::function<void(std::span<const Crack>)> cracks;  ///< new ones since the row before
+  std::function<bool()> checkpoint_due;  ///< asked between rows; an interrupted run makes one without asking
+  std::function<void(World&, const LoadState&, const LoadResult&)> checkpoint;
 };
 
+/// Runs a test from where it stands to its end, or until it is interrupted.
+/// @param state   of a test not begun, or with the world and the result from a checkpoint
 /// @param result  filled as the run goes, so that what there is survives an exception
 /// @throws SimulationBroke when a guard stops it, see core/guards.hpp
+void run_load_test(World& world, const Assembly& assembly, const LoadTest& test, const LoadHooks& hooks,
+                   LoadState& state, LoadResult& result);
+
+/// The same from the start.
 void run_load_test(World& world, const Assembly& assembly, const LoadTest& test, const LoadHooks& hooks,
                    LoadResult& result);
 

@@ -13,6 +13,14 @@ std::vector<Row> first_rows(std::size_t size) {
   return rows;
 }
 
+template <class Pairs>
+std::vector<Row> by_ends(const Pairs& pairs) {
+  std::vector<Row> rows = first_rows(pairs.size);
+  const auto ends = [&](Row row) { return std::tuple(pairs.gid_lo[row], pairs.gid_hi[row], row); };
+  std::sort(rows.begin(), rows.end(), [&](Row a, Row b) { return ends(a) < ends(b); });
+  return rows;
+}
+
 }  // namespace
 
 std::vector<Row> rows_by_gid(const ParticleTable& particles) {
@@ -21,11 +29,8 @@ std::vector<Row> rows_by_gid(const ParticleTable& particles) {
   return rows;
 }
 
-std::vector<Row> rows_by_ends(const BondTable& bonds) {
-  std::vector<Row> rows = first_rows(bonds.size);
-  const auto ends = [&](Row row) { return std::tuple(bonds.gid_lo[row], bonds.gid_hi[row], row); };
-  std::sort(rows.begin(), rows.end(), [&](Row a, Row b) { return ends(a) < ends(b); });
-  return rows;
-}
+std::vector<Row> rows_by_ends(const BondTable& bonds) { return by_ends(bonds); }
+
+std::vector<Row> rows_by_ends(const ContactTable& contacts) { return by_ends(contacts); }
 
 }  // namespace breccia

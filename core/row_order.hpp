@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/bond_table.hpp"
+#include "core/contact_table.hpp"
 #include "core/particle_table.hpp"
 
 namespace breccia {
@@ -13,5 +14,6 @@ std::vector<Row> rows_by_gid(const ParticleTable& particles);
 
 /// Rows [0, size) of the bonds in order of (gid_lo, gid_hi); the padding is left out.
 std::vector<Row> rows_by_ends(const BondTable& bonds);
+std::vector<Row> rows_by_ends(const ContactTable& contacts);
 
 }  // namespace breccia

@@ -96,4 +96,9 @@ void keep_step(World& w) {
   }
 }
 
+void set_dashpots(World& w) {
+  set_bond_dashpots(w);
+  set_contact_dashpots(w);
+}
+
 }  // namespace breccia

@@ -28,4 +28,7 @@ void choose_step(World& world);
 /// cannot, by a proven bound, use up the room that there was; only then is the network looked at again.
 void keep_step(World& world);
 
+/// The dashpots of all bonds and contacts for the step in use.
+void set_dashpots(World& world);
+
 }  // namespace breccia

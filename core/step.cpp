@@ -16,9 +16,7 @@ void search_if_due(World& w) {
   renew_contacts(w.search, w.contacts, w.particles, material, w.features, w.ledger.enabled,
                  w.options.threads);
   renew_contacts(w.ledger, w.contacts.size);
-  w.contact_plan = plan_scatter(w.options.scatter, w.options.threads, LoadBlock::capacity, w.contacts.row_lo,
-                                w.contacts.row_hi, w.contacts.gid_lo, w.contacts.gid_hi,
-                                w.contacts.arm_offset, w.particles.size);
+  plan_contacts(w);
   keep_step(w);
 }
 

@@ -119,6 +119,12 @@ BondPassHistory bond_pass_history(World& w) {
 
 void settle(World& w) { widen_history(w.narrow_bonds, 0, w.bonds.padded, w.bonds); }
 
+void plan_contacts(World& w) {
+  const ContactTable& c = w.contacts;
+  w.contact_plan = plan_scatter(w.options.scatter, w.options.threads, LoadBlock::capacity, c.row_lo, c.row_hi,
+                                c.gid_lo, c.gid_hi, c.arm_offset, w.particles.size);
+}
+
 double inertia_factor(const World& w) {
   return w.space == Space::plane ? disc_inertia_factor : sphere_inertia_factor;
 }

@@ -86,6 +86,9 @@ BondPassHistory bond_pass_history(World& world);
 /// Brings the table of bonds up to date, before anyone looks at it; in full precision it always is.
 void settle(World& world);
 
+/// After the list of contacts was made anew: who adds to whom.
+void plan_contacts(World& world);
+
 /// One step: forces at the present positions, then kick and drift.
 void advance(World& world);
 

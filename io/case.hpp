@@ -70,6 +70,7 @@ struct Case {
   double mass_factor = 1.5;  ///< of the total mass, where masses are scaled
   ScatterKind scatter = ScatterKind::private_sums;
   Precision precision = Precision::full;
+  double checkpoint_every = 300;  ///< s, wall time
   int frames = 20;
   bool stress = false, cracks = true;  ///< output
   std::string resolved;                ///< the whole case as TOML, every default written out

@@ -89,7 +89,6 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   line.program = name;
   line.threads = available_cores();
   CLI::App app(about, program);
-  bool resume = false;
   app.set_version_flag("--version", std::string(BRECCIA_VERSION));
   app.add_option("CASE.toml", line.case_file, "the case to run")->required();
   app.add_option("--set", line.sets, "table.key=value, instead of the case's")->allow_extra_args(false);
@@ -100,13 +99,13 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   app.add_flag("--dry-run", line.dry_run, "read, check, bond, print; write nothing");
   app.add_flag("--force", line.force, "replace results that are there");
   app.add_flag("--quiet", line.quiet, "errors only");
-  app.add_flag("--resume", resume, "not in this version");
+  app.add_flag("--resume", line.resume, "go on from the newest checkpoint in the folder of results");
   app.footer(keys.empty() ? describe_keys(name) : keys);
   if (const auto code = read_command_line(app, argc, argv)) return *code;
   if (line.out.empty()) line.out = std::filesystem::path("out") / line.case_file.stem();
   return run_body(program, line.threads, [&] {
-    if (resume)
-      fail<BadInput>("--resume: not in this version; run without it, with --force to replace the results");
+    if (line.resume && line.force)
+      fail<BadInput>("--resume, --force: one keeps the results that are there, the other replaces them; give one");
     body(line);
   });
 }

@@ -18,7 +18,7 @@ struct CommandLine {
   std::vector<std::string> sets;  ///< --set table.key=value
   std::filesystem::path out;      ///< --out, or out/STEM-OF-CASE
   int threads = 1;
-  bool explain = false, dry_run = false, force = false, quiet = false;
+  bool explain = false, dry_run = false, force = false, quiet = false, resume = false;
 };
 
 /// True once SIGINT, SIGTERM or SIGUSR1 has come.

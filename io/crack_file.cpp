@@ -16,13 +16,13 @@ CrackFile::CrackFile(const std::filesystem::path& file) : path_(file), out_(file
   if (!out_.flush()) fail_to_write(file, errno);
 }
 
-void CrackFile::add(std::span<const Crack> cracks, double axial_strain) {
+void CrackFile::add(std::span<const Crack> cracks) {
   std::string text;
   for (const Crack& c : cracks)
     fmt::format_to(
         std::back_inserter(text),
         "{:.9g},{:.6g},{},{},{:.7g},{:.7g},{:.7g},{:.5f},{:.5f},{:.5f},{},{:.6g},{:.6g},{:.6g},{:.6g}\n",
-        c.time, axial_strain, c.gid_lo, c.gid_hi, c.position.x, c.position.y, c.position.z, c.normal.x,
+        c.time, c.axial_strain, c.gid_lo, c.gid_hi, c.position.x, c.position.y, c.position.z, c.normal.x,
         c.normal.y, c.normal.z, static_cast<int>(c.mode), c.normal_force, c.shear_force, c.area, c.energy);
   errno = 0;
   if (!(out_ << text).flush()) fail_to_write(path_, errno);

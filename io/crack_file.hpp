@@ -16,7 +16,7 @@ public:
   /// @throws FileTrouble
   explicit CrackFile(const std::filesystem::path& file);
   /// Adds lines and hands them to the system. @throws FileTrouble
-  void add(std::span<const Crack> cracks, double axial_strain);
+  void add(std::span<const Crack> cracks);
 
 private:
   std::filesystem::path path_;

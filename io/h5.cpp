@@ -99,6 +99,10 @@ Handle open_file(const std::string& name) {
   return {H5Fopen(name.c_str(), H5F_ACC_RDWR, file_access()), H5Fclose, "open"};
 }
 
+Handle open_to_read(const std::string& name) {
+  return {H5Fopen(name.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose, "open"};
+}
+
 Handle create_file(const std::string& name, unsigned links_of_root) {
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "create");
   make_room(creation, links_of_root);
@@ -107,6 +111,16 @@ Handle create_file(const std::string& name, unsigned links_of_root) {
 
 Handle create_group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
+}
+
+Handle open_group(hid_t parent, const std::string& name) {
+  return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, name};
+}
+
+bool has_link(hid_t parent, const std::string& name) {
+  const htri_t there = H5Lexists(parent, name.c_str(), H5P_DEFAULT);
+  check(there, name);
+  return there > 0;
 }
 
 Handle create_unlinked_group(hid_t file, unsigned links) {
@@ -143,13 +157,30 @@ void write_attribute(hid_t object, const char* name, std::string_view text) {
   write_scalar(object, name, type, type, &value);
 }
 
+std::uint64_t read_id_attribute(hid_t object, const char* name) {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, name);
+  std::uint64_t value = 0;
+  check(H5Aread(attribute, H5T_NATIVE_UINT64, &value), name);
+  return value;
+}
+
+std::string read_text_attribute(hid_t object, const char* name) {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, name);
+  const Handle type(H5Aget_type(attribute), H5Tclose, name);
+  char* value = nullptr;
+  check(H5Aread(attribute, type, &value), name);
+  std::string text(value == nullptr ? "" : value);
+  H5free_memory(value);
+  return text;
+}
+
 void write_dataset(hid_t group, const Dataset& dataset) {
   const char* name = dataset.name.c_str();
   const int rank = dataset.components > 1 ? 2 : 1;
   const std::array<hsize_t, 2> extent{dataset.rows, dataset.components};
   const Handle space(H5Screate_simple(rank, extent.data(), nullptr), H5Sclose, name);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
-  if (dataset.rows > 0) {
+  if (dataset.rows > 0 && !dataset.plain) {
     const std::array<hsize_t, 2> chunk{rows_of_chunk(dataset.rows), dataset.components};
     check(H5Pset_chunk(creation, rank, chunk.data()), name);
     if (is_worth_deflating(dataset)) {
@@ -162,9 +193,25 @@ void write_dataset(hid_t group, const Dataset& dataset) {
   const Handle set(H5Dcreate2(group, name, types.file, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
                    name);
   if (dataset.rows > 0) check(H5Dwrite(set, types.memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, dataset.data), name);
-  write_attribute(set, "unit", dataset.unit);
-  write_attribute(set, "role", dataset.role);
-  write_attribute(set, "meaning", dataset.meaning);
+  if (!dataset.unit.empty()) write_attribute(set, "unit", dataset.unit);
+  if (!dataset.role.empty()) write_attribute(set, "role", dataset.role);
+  if (!dataset.meaning.empty()) write_attribute(set, "meaning", dataset.meaning);
+}
+
+std::size_t rows_of_dataset(hid_t group, const std::string& name, std::size_t components) {
+  const Handle set(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, name);
+  const Handle space(H5Dget_space(set), H5Sclose, name);
+  std::array<hsize_t, 2> extent{0, 1};
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 1 || rank > 2) throw Failure(name + " has another shape");
+  check(H5Sget_simple_extent_dims(space, extent.data(), nullptr), name);
+  if (extent[1] != components) throw Failure(name + " has another shape");
+  return extent[0];
+}
+
+void read_dataset(hid_t group, const std::string& name, Number number, void* data) {
+  const Handle set(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, name);
+  check(H5Dread(set, types_of(number).memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name);
 }
 
 }  // namespace breccia::h5

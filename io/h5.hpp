@@ -45,9 +45,12 @@ private:
 /// Opens an existing file to be changed, or makes a new one. Without HDF5's own locks: a run must not stop
 /// because someone looks at its results.
 Handle open_file(const std::string& name);
+Handle open_to_read(const std::string& name);
 Handle create_file(const std::string& name, unsigned links_of_root);
 
 Handle create_group(hid_t parent, const std::string& name);
+Handle open_group(hid_t parent, const std::string& name);
+bool has_link(hid_t parent, const std::string& name);
 
 /// A group that nothing refers to yet: until it is linked, the file around it is as it was.
 /// @param links  that it will hold; room for them is set aside in the group itself
@@ -62,17 +65,27 @@ void write_attribute(hid_t object, const char* name, double value);
 void write_attribute(hid_t object, const char* name, std::uint64_t value);
 void write_attribute(hid_t object, const char* name, std::string_view text);  ///< of any length, UTF-8
 
+std::uint64_t read_id_attribute(hid_t object, const char* name);
+std::string read_text_attribute(hid_t object, const char* name);
+
 /// Numbers that a dataset can hold, in memory and in the file.
 enum class Number { real, id, byte };
 
-/// A dataset of rows x components numbers with the attributes unit, role and meaning; checksummed.
+/// A dataset of rows x components numbers with the attributes unit, role and meaning (left out where they are
+/// empty); checksummed and, where it pays, deflated.
 struct Dataset {
   std::string name;
   std::string_view unit, role, meaning;
   Number number = Number::real;
   std::size_t rows = 0, components = 1;
   const void* data = nullptr;
+  bool plain = false;  ///< as it is, in one piece: for files that carry a checksum of their own
 };
 void write_dataset(hid_t group, const Dataset& dataset);
+
+/// Rows of a dataset of so many components a row. @throws Failure when it has another shape
+std::size_t rows_of_dataset(hid_t group, const std::string& name, std::size_t components);
+/// Reads all of it. @param data  room for rows x components
+void read_dataset(hid_t group, const std::string& name, Number number, void* data);
 
 }  // namespace breccia::h5

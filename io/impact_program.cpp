@@ -28,6 +28,7 @@ std::string explain(const ImpactScene& s) {
 }  // namespace
 
 void run_impact_program(const CommandLine& line) {
+  if (line.resume) fail<BadInput>("--resume: this program makes no checkpoints; run it anew, with --force");
   ImpactCase c = load_impact_case(line.case_file, line.sets);
   c.scene.threads = line.threads;
   Progress progress = make_progress(line.quiet);

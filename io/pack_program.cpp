@@ -41,6 +41,7 @@ std::string report(const Specimen& specimen, const SpecimenCase& s, double secon
 }  // namespace
 
 void run_pack_program(const CommandLine& line) {
+  if (line.resume) fail<BadInput>("--resume: this program makes no checkpoints; run it anew, with --force");
   const Case c = load_case(line.case_file, line.sets, line.program);
   Progress progress = make_progress(line.quiet);
   const auto start = std::chrono::steady_clock::now();

@@ -8,9 +8,10 @@
 #include <system_error>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/row_order.hpp"
 #include "io/file_trouble.hpp"
-#include "io/h5.hpp"
+#include "io/h5_columns.hpp"
 #include "io/write_aside.hpp"
 
 namespace breccia {
@@ -18,49 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template <class T>
-constexpr h5::Number number_of = h5::Number::real;
-template <>
-constexpr h5::Number number_of<Gid> = h5::Number::id;
-template <>
-constexpr h5::Number number_of<std::uint8_t> = h5::Number::byte;
-template <class T>
-constexpr std::size_t components_of = 1;
-template <>
-constexpr std::size_t components_of<Vec3> = 3;
-
 bool stays(Role role) { return role == Role::identity || role == Role::reference; }
 bool changes(Role role) { return role == Role::history || role == Role::state || role == Role::derived; }
-
-template <class T>
-void write_rows(hid_t group, const ColumnInfo& info, std::string_view role, const std::vector<T>& rows) {
-  const auto write = [&](const void* numbers) {
-    h5::write_dataset(group, {std::string(info.name), info.unit, role, info.meaning, number_of<T>,
-                              rows.size(), components_of<T>, numbers});
-  };
-  if constexpr (std::is_same_v<T, Vec3>) {
-    std::vector<double> packed;  // three numbers a row, without what fills a Vec3 up
-    packed.reserve(3 * rows.size());
-    for (const Vec3& v : rows) packed.insert(packed.end(), {v.x, v.y, v.z});
-    write(packed.data());
-  } else {
-    write(rows.data());
-  }
-}
-
-/// One dataset for each column of a wanted role that the scene has, its rows in the given order.
-template <class Table>
-void write_columns(hid_t group, const Table& table, std::span<const Row> order, bool (*wanted)(Role)) {
-  table.for_each_column([&]<class T>(const ColumnInfo& info, const Column<T>& column) {
-    if constexpr (!std::is_same_v<T, Row>) {  // rows of this rank mean nothing outside; all are scratch
-      if (!wanted(info.role) || column.empty()) return;
-      std::vector<T> rows;
-      rows.reserve(order.size());
-      for (const Row row : order) rows.push_back(column[row]);
-      write_rows(group, info, name_of(info.role), rows);
-    }
-  });
-}
 
 void write_states(hid_t group, const BondTable& bonds, std::span<const Row> order) {
   std::vector<std::uint8_t> states;
@@ -68,7 +28,7 @@ void write_states(hid_t group, const BondTable& bonds, std::span<const Row> orde
   for (const Row row : order) states.push_back(static_cast<std::uint8_t>(bond_state(bonds, row)));
   const ColumnInfo info{"BondState", "state",      "1",
                         Role::state, Need::always, "0 intact, 1 broken in tension, 2 broken in shear"};
-  write_rows(group, info, "derived", states);
+  write_rows(group, info, "derived", states, false);
 }
 
 /// The most that these columns can take in the file: they are stored as they are where deflate gains nothing.
@@ -156,9 +116,18 @@ void begin_run(const fs::path& file, int run, std::span<const std::pair<std::str
   const std::size_t bytes = bytes_of(particles, stays) + bytes_of(bonds, stays);
   append(file, "/", name_of_run(run), bytes, usual_frames, [&](hid_t group) {
     for (const auto& [key, value] : attributes) h5::write_attribute(group, key.c_str(), value);
-    write_columns(h5::create_group(group, "particles"), particles, rows_by_gid(particles), stays);
-    write_columns(h5::create_group(group, "bonds"), bonds, rows_by_ends(bonds), stays);
+    write_columns(h5::create_group(group, "particles"), particles, rows_by_gid(particles), stays, false);
+    write_columns(h5::create_group(group, "bonds"), bonds, rows_by_ends(bonds), stays, false);
   });
+}
+
+bool has_run(const fs::path& file, int run) {
+  h5::be_silent();
+  try {
+    return h5::has_link(h5::open_to_read(file.string()), name_of_run(run));
+  } catch (const h5::Failure& failure) {
+    fail<FileTrouble>("{}: cannot be read: {}", file.string(), failure.what());
+  }
 }
 
 void append_frame(const fs::path& file, int run, int frame, const FrameStamp& stamp,
@@ -169,10 +138,10 @@ void append_frame(const fs::path& file, int run, int frame, const FrameStamp& st
     h5::write_attribute(group, "time_s", stamp.time_s);
     h5::write_attribute(group, "step", stamp.step);
     h5::write_attribute(group, "axial_strain", stamp.axial_strain);
-    write_columns(h5::create_group(group, "particles"), particles, rows_by_gid(particles), changes);
+    write_columns(h5::create_group(group, "particles"), particles, rows_by_gid(particles), changes, false);
     const h5::Handle bond_group = h5::create_group(group, "bonds");
     const std::vector<Row> order = rows_by_ends(bonds);
-    write_columns(bond_group, bonds, order, changes);
+    write_columns(bond_group, bonds, order, changes, false);
     write_states(bond_group, bonds, order);
   });
 }

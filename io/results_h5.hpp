@@ -40,6 +40,9 @@ void begin_run(const std::filesystem::path& file, int run,
                std::span<const std::pair<std::string, double>> attributes, const ParticleTable& particles,
                const BondTable& bonds);
 
+/// True when the file has /run-K. @throws FileTrouble when it cannot be read
+bool has_run(const std::filesystem::path& file, int run);
+
 /// Adds /run-K/frame-NNN; a frame of that number that is there, from before a resume, is replaced. The file
 /// is opened and closed in here: between frames it is whole, whatever becomes of the process.
 /// @throws FileTrouble; the frames before it stay readable, on a full disk too

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 /// True for a path, relative to the folder, that only breccia or scripts/plot gives.
 bool is_ours(const std::string& relative) {
   static const std::regex ours(
-      R"((case\.toml|specimen\.csv|summary\.json|(curve|cracks|events)-\d+\.csv|results\.h5|(scaling|layouts|stability|workprecision)\.(csv|json|png)|runs\.jsonl|(curves|envelope|specimen|energy|cracks-\d+)\.png)"
+      R"((case\.toml|specimen\.csv|summary\.json|(curve|cracks|events)-\d+\.csv|results\.h5|checkpoint(-before)?\.h5|(scaling|layouts|stability|workprecision)\.(csv|json|png)|runs\.jsonl|(curves|envelope|specimen|energy|cracks-\d+)\.png)"
       R"(|frames/run-\d+\.pvd|frames/run-\d+/(particles|bonds)-\d+\.vtp)(\.part)?)");
   return std::regex_match(relative, ours);
 }

@@ -1,9 +1,14 @@
 #include "io/test_program.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
 
 #include "core/error.hpp"
 #include "core/stress.hpp"
+#include "io/case_change.hpp"
+#include "io/checkpoint.hpp"
 #include "io/crack_file.hpp"
 #include "io/curve.hpp"
 #include "io/explain.hpp"
@@ -12,6 +17,7 @@
 #include "io/run_folder.hpp"
 #include "io/run_summary.hpp"
 #include "io/summary.hpp"
+#include "io/text_file.hpp"
 #include "io/vtp.hpp"
 #include "io/write_aside.hpp"
 
@@ -108,39 +114,70 @@ std::string title_of(const Case& c, std::size_t k) {
   return runs == 1 ? pressure : fmt::format("run {} of {}, {}", k + 1, runs, pressure);
 }
 
-/// One run; its files are written even when it breaks off.
-RunSummary run_one(const Case& c, const std::string& test, std::size_t k, World& w, const Assembly& a,
-                   const fs::path& folder, Progress& progress) {
-  const LoadTest load = load_test(c, test, k);
-  const int run = static_cast<int>(k);
-  begin(progress, title_of(c, k));
+/// One run of a series and what it writes to.
+struct RunOfSeries {
+  const Case& c;
+  const std::string& test;
+  std::size_t k = 0;
+  const fs::path& folder;
+  Progress& progress;
+};
+
+void begin_files(const RunOfSeries& run, const World& w, const LoadTest& load, bool resumed) {
+  const fs::path results = run.folder / "results.h5";
+  if (run.c.frames == 0) return;
+  if (!fs::exists(results)) create_results(results, run.c.resolved);
   const std::pair<std::string, double> attributes[] = {
       {"confinement_Pa", load.confinement}, {"alpha", w.alpha}, {"time_step_s", w.dt}};
-  if (c.frames > 0) begin_run(folder / "results.h5", run, attributes, w.particles, w.bonds);
+  if (!resumed || !has_run(results, static_cast<int>(run.k)))
+    begin_run(results, static_cast<int>(run.k), attributes, w.particles, w.bonds);
+}
+
+/// True once in `every` seconds.
+auto due_every(double every) {
+  return [every, last = std::chrono::steady_clock::now()]() mutable {
+    const auto now = std::chrono::steady_clock::now();
+    if (std::chrono::duration<double>(now - last).count() < every) return false;
+    last = now;
+    return true;
+  };
+}
+
+/// One run; its files are written even when it breaks off.
+/// @param finished  the runs before it, for its checkpoints
+/// @param state, result  of a run not begun, or from a checkpoint
+RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const std::string& finished,
+                   LoadState& state, LoadResult& result) {
+  const LoadTest load = load_test(run.c, run.test, run.k);
+  const int number = static_cast<int>(run.k);
+  begin(run.progress, title_of(run.c, run.k));
+  begin_files(run, w, load, state.stage != Stage::not_begun);
   std::optional<CrackFile> crack_file;
-  if (w.cracks.enabled) crack_file.emplace(folder / fmt::format("cracks-{}.csv", k));
+  if (w.cracks.enabled) {
+    crack_file.emplace(run.folder / fmt::format("cracks-{}.csv", run.k));
+    crack_file->add(std::span(w.cracks.cracks).first(state.cracks_told));
+  }
 
   LoadHooks hooks;
   hooks.interrupted = interrupted;
   hooks.progress = [&](int stage, double fraction, const CurveRow& row) {
-    tell(progress, w, stage, fraction, row);
+    tell(run.progress, w, stage, fraction, row);
   };
-  int frame = 0;
-  hooks.frame = [&](World& world, const CurveRow& row) {
-    if (c.stress) fill_stress_columns(world);
-    append_frame(folder / "results.h5", run, frame, {world.time, world.step, row.axial_strain},
-                 world.particles, world.bonds);
-    write_frame_vtp(folder / "frames", run, frame, world.time, world.particles, world.bonds);
-    ++frame;
+  hooks.frame = [&](World& world, std::size_t frame, const CurveRow& row) {
+    if (run.c.stress) fill_stress_columns(world);
+    append_frame(run.folder / "results.h5", number, static_cast<int>(frame),
+                 {world.time, world.step, row.axial_strain}, world.particles, world.bonds);
+    write_frame_vtp(run.folder / "frames", number, static_cast<int>(frame), world.time, world.particles,
+                    world.bonds);
   };
-  if (crack_file)
-    hooks.cracks = [&](std::span<const Crack> cracks, const CurveRow& row) {
-      crack_file->add(cracks, row.axial_strain);
-    };
-  LoadResult result;
-  const fs::path curve = folder / fmt::format("curve-{}.csv", k);
+  if (crack_file) hooks.cracks = [&](std::span<const Crack> cracks) { crack_file->add(cracks); };
+  hooks.checkpoint_due = due_every(run.c.checkpoint_every);
+  hooks.checkpoint = [&](World& world, const LoadState& at, const LoadResult& so_far) {
+    write_checkpoint(run.folder, {run.c.resolved, run.k, finished}, world, at, so_far);
+  };
+  const fs::path curve = run.folder / fmt::format("curve-{}.csv", run.k);
   try {
-    run_load_test(w, a, load, hooks, result);
+    run_load_test(w, a, load, hooks, state, result);
   } catch (...) {
     try {
       write_curve(curve, result.record.rows);
@@ -149,7 +186,7 @@ RunSummary run_one(const Case& c, const std::string& test, std::size_t k, World&
     throw;
   }
   write_curve(curve, result.record.rows);
-  return summarise(test, w, a, load, result);
+  return summarise(run.test, w, a, load, result);
 }
 
 std::string result_line(const Case& c, std::size_t k, const std::string& test, const RunSummary& run) {
@@ -164,9 +201,46 @@ std::string result_line(const Case& c, std::size_t k, const std::string& test, c
 
 }  // namespace
 
+namespace {
+
+/// What `--resume` finds in the folder of results.
+struct WorkDone {
+  std::optional<FoundCheckpoint> checkpoint;
+  bool all = false;  ///< the series is finished
+};
+
+void refuse_changes(const fs::path& file, const std::string& before, const Case& c) {
+  const std::vector<std::string> changed = changed_keys(before, c.resolved);
+  if (changed.empty()) return;
+  fail<BadInput>("{}: the case has changed since: {}; resume with the case as it was, or run it anew with --force",
+                 file.string(), fmt::join(changed, "; "));
+}
+
+/// @throws BadInput when the case has changed since, naming the keys
+WorkDone find_work(const CommandLine& line, const Case& c, Progress& progress) {
+  WorkDone work;
+  if (!line.resume) return work;
+  const fs::path case_file = line.out / "case.toml";
+  work.checkpoint = find_checkpoint(line.out, [&](const std::string& text) { say(progress, text); });
+  if (work.checkpoint) {
+    refuse_changes(work.checkpoint->file, work.checkpoint->head.case_text, c);
+    return work;
+  }
+  if (fs::exists(case_file)) refuse_changes(case_file, read_text(case_file), c);
+  work.all = finished_runs(line.out / "summary.json") == c.test.confinement.size();
+  say(progress, work.all ? fmt::format("{}: finished, nothing to do", line.out.string())
+                         : fmt::format("{}: no checkpoint, begins at the start", line.out.string()));
+  return work;
+}
+
+}  // namespace
+
 void run_test_program(const CommandLine& line) {
   const Case c = load_case(line.case_file, line.sets, line.program);
   Progress progress = make_progress(line.quiet);
+  const WorkDone work = find_work(line, c, progress);
+  if (work.all) return;
+  const std::optional<FoundCheckpoint>& found = work.checkpoint;
   const Features asked = asked_features(c);
   const ReadySpecimen ready = make_ready(c, line.program, asked, line.threads, progress);
   const WorldOptions options = world_options(c, line.program, asked, line.threads);
@@ -180,22 +254,37 @@ void run_test_program(const CommandLine& line) {
   }
 
   begin_results();
-  claim_run_folder(line.out, line.force);
-  write_aside(line.out / "case.toml", c.resolved);
-  if (c.frames > 0) create_results(line.out / "results.h5", c.resolved);
+  if (!found) {
+    claim_run_folder(line.out, line.force || line.resume);
+    write_aside(line.out / "case.toml", c.resolved);
+    if (c.frames > 0) create_results(line.out / "results.h5", c.resolved);
+  }
   SeriesSummary series;
   series.test = line.program;
   series.version = BRECCIA_VERSION;
   series.threads = line.threads;
-  for (std::size_t k = 0; k < c.test.confinement.size() && !interrupted(); ++k) {
+  if (found) series.runs = read_runs(found->head.finished);
+  for (std::size_t k = series.runs.size(); k < c.test.confinement.size(); ++k) {
     World w = make_world(ready.assembly, c.materials[k], ready.factor, options);
     if (k == 0) say(progress, step_line(w, c.safety));
-    series.runs.push_back(run_one(c, line.program, k, w, ready.assembly, line.out, progress));
+    LoadState state;
+    LoadResult result;
+    if (found && k == found->head.run) {
+      read_checkpoint(*found, w, state, result);
+      say(progress, fmt::format("goes on from step {} of run {} ({})", w.step, k + 1, found->file.string()));
+    }
+    const std::string finished = runs_text(series.runs);
+    series.runs.push_back(
+        run_one({c, line.program, k, line.out, progress}, w, ready.assembly, finished, state, result));
     fit_peaks(series);
     write_summary(line.out / "summary.json", series);
     say(progress, result_line(c, k, line.program, series.runs.back()));
+    if (result.stopped == Stopped::interrupted) break;
   }
+  const bool interrupted = series.runs.back().stopped_by == "interrupted";
+  if (!interrupted) remove_checkpoints(line.out);
   say(progress, "\n" + format_summary_table(series, line.out));
+  if (interrupted) say(progress, "interrupted; --resume goes on from here");
 }
 
 }  // namespace breccia

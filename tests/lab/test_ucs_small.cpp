@@ -40,7 +40,7 @@ Run run(double confinement, double stop_strain, const std::function<void(const W
   test.frames = 1;
   LoadHooks hooks;
   bool first = true;
-  hooks.frame = [&](World& w, const CurveRow&) {
+  hooks.frame = [&](World& w, std::size_t, const CurveRow&) {
     if (first && at_stage_2) at_stage_2(w);
     first = false;
   };

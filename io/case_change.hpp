@@ -1,0 +1,12 @@
+// What differs between two resolved cases: a run is taken up only by the case that it began with.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace breccia {
+
+/// One line for each key that differs, "test.platen_speed = 0.1 m/s, was 0.05 m/s"; what may differ is left out:
+/// run.checkpoint_every and [output].
+std::vector<std::string> changed_keys(const std::string& before, const std::string& now);
+
+}  // namespace breccia
