@@ -59,6 +59,11 @@ double room_below_limit(double number) { return 1.0 - number / 0.98; }
 
 }  // namespace
 
+void set_dashpots(World& w) {
+  set_bond_dashpots(w);
+  set_contact_dashpots(w);
+}
+
 void choose_step(World& w) {
   const WorldOptions& o = w.options;
   if (!(o.safety > 0.0 && o.safety <= 1.0))
@@ -84,21 +89,17 @@ void keep_step(World& w) {
   const std::vector<std::size_t> added = uncounted(w.contacts, watch.counted);
   if (added.empty() || stability_number_bound(scene, added, w.dt) <= watch.room) return;
   watch.counted = pairs_of(w.contacts);
-  while (true) {
+  for (bool lowered = false;; lowered = true) {
     ++watch.looks;
     const StepLook look = look_at_step(scene, w.dt);
     watch.room = room_below_limit(look.number);
-    if (watch.room >= 0.0) return;
+    // the look at a lowered step says how well the one before has aimed
+    const bool well_aimed = !lowered || w.dt <= 1.005 * w.options.safety * look.critical;
+    if (watch.room >= 0.0 && well_aimed) return;
     w.critical_dt = std::min(w.critical_dt, look.critical);
     w.dt = std::min(w.dt, w.options.safety * w.critical_dt);
-    set_bond_dashpots(w);
-    set_contact_dashpots(w);
+    set_dashpots(w);
   }
-}
-
-void set_dashpots(World& w) {
-  set_bond_dashpots(w);
-  set_contact_dashpots(w);
 }
 
 }  // namespace breccia

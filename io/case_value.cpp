@@ -122,7 +122,6 @@ void refuse(const std::string& place, std::string_view key, const std::string& t
 
 Reading read_value(const Key& key, const TomlNode& node) {
   Reading reading;
-  if (key.later == "*") refuse_later(key, node);
   switch (key.kind) {
     case Kind::quantity:
       reading.number = read_quantity(key, node);

@@ -32,7 +32,6 @@ void write_at(std::string& text, const ConfinementLayer& at, const Layer& base) 
 }  // namespace
 
 std::string describe_values(const Key& key) {
-  if (key.later == "*") return "not in this version";
   switch (key.kind) {
     case Kind::boolean:
       return key.later == "true" ? "false" : "true, false";

@@ -20,7 +20,7 @@ struct Flat {
   using Number = double;
   static constexpr std::size_t components = sizeof(T) / sizeof(double);
   static void put(const T& value, double* to) { std::memcpy(to, &value, sizeof(T)); }
-  static void take(T& value, const double* from) { std::memcpy(&value, from, sizeof(T)); }
+  static void take(T& value, const double* from) { std::memcpy(static_cast<void*>(&value), from, sizeof(T)); }
 };
 
 template <class T>

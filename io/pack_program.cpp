@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "core/cell_list.hpp"
+#include "core/error.hpp"
 #include "core/packing_genesis.hpp"
 #include "io/case.hpp"
 #include "io/read_specimen.hpp"

@@ -126,7 +126,6 @@ class Options(ProgramTest):
         self.check_one_line(run("ucs", self.case, "--fast"), 2, "--fast", "--help")
         self.check_one_line(run("ucs"), 2, "CASE.toml")
         self.check_one_line(run("ucs", self.case, "--threads", "0"), 2, "--threads")
-        self.check_one_line(run("ucs", self.case, "--resume", "--out", self.out), 2, "--resume", "not in this version")
 
     def test_several_ranks(self):
         result = run("ucs", self.case, "--out", self.out, env=os.environ | {"OMPI_COMM_WORLD_SIZE": "2"})

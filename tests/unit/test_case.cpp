@@ -509,8 +509,6 @@ TEST_CASE("case: what a later version brings is refused by name") {
                "material", "law = \"parallel-bond\"",
                "material.law \"parallel-bond\" is not in this version; valid: \"dempack\", \"exponential\", "
                "\"kdem\""},
-           {"run", "checkpoint_every = \"5 min\"",
-            "run.checkpoint_every \"5 min\" is not in this version; leave it out"},
        })
     says(complaint(std::string("[") + l.table + "]\n" + l.line + "\n"), std::string("c.toml:2: ") + l.text);
 }
