@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/assembly.hpp"
+#include "core/share.hpp"
 
 namespace breccia {
 
@@ -38,7 +39,8 @@ Platens make_platens(const Assembly& assembly, const ParticleTable& particles, b
                      double young_modulus);
 
 /// Reactions of this step, and for a servo the velocity that follows from them.
-void drive_platens(Platens& platens, const ParticleTable& particles, std::size_t first_top, double dt);
+void drive_platens(Platens& platens, const ParticleTable& particles, const Share& share,
+                   std::size_t first_top, double dt);
 
 /// What surrounds the mantle: a fluid under pressure, forces p w on each particle of the skin with weights w
 /// that add up to the nominal surface; or a rigid wall that lets it slide along the axis only.
@@ -56,9 +58,9 @@ struct Confinement {
 Confinement make_confinement(const Assembly& assembly, SkinWeights weights, bool rigid);
 
 /// Adds the pressure forces; their net force and moment are removed by a least-squares correction.
-void press_skin(Confinement& confinement, ParticleTable& particles);
+void press_skin(Confinement& confinement, ParticleTable& particles, const Share& share);
 
 /// A rigid wall takes up the lateral forces of the skin, all of them summed: called when they are complete.
-void hold_skin(Confinement& confinement, ParticleTable& particles);
+void hold_skin(Confinement& confinement, ParticleTable& particles, const Share& share);
 
 }  // namespace breccia

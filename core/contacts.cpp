@@ -28,6 +28,14 @@ struct Moved {
   }
 };
 
+struct EvenStretch {
+  double top = 0, square = 0;
+  EvenStretch& operator+=(const EvenStretch& o) {
+    top += o.top, square += o.square;
+    return *this;
+  }
+};
+
 }  // namespace
 
 ContactSearch make_contact_search(const Assembly& a, bool enabled, double skin) {
@@ -60,18 +68,19 @@ ContactSearch make_contact_search(const Assembly& a, bool enabled, double skin) 
   return s;
 }
 
-bool search_is_due(ContactSearch& s, const ParticleTable& p, std::uint64_t step, double dt, int threads) {
+bool search_is_due(ContactSearch& s, const ParticleTable& p, const Share& share, std::uint64_t step, double dt,
+                   int threads) {
   if (!s.enabled || step < s.next_check) return false;
   s.next_check = step + static_cast<std::uint64_t>(s.check_every);
 
-  double top = 0.0, square = 0.0;  // even stretch along the axis: least squares of u_z over z
-  for (std::size_t row = 0; row < p.size; ++row) {
-    top += s.position[row].z * (p.position[row].z - s.position[row].z);
-    square += s.position[row].z * s.position[row].z;
-  }
-  const double stretch = square > 0.0 ? top / square : 0.0;
+  std::vector<EvenStretch> sums;  // along the axis: least squares of u_z over z
+  const EvenStretch even = sum_particles(share, threads, sums, [&](std::size_t row) {
+    const double z = s.position[row].z;
+    return EvenStretch{z * (p.position[row].z - z), z * z};
+  });
+  const double stretch = even.square > 0.0 ? even.top / even.square : 0.0;
   std::vector<Moved> blocks;
-  const Moved most = sum_rows<Moved>(p.size, threads, blocks, [&](std::size_t row) {
+  const Moved most = sum_particles(share, threads, blocks, [&](std::size_t row) {
     Vec3 u = p.position[row] - s.position[row];
     u.z -= stretch * s.position[row].z;
     return Moved{dot(u, u), dot(p.velocity[row], p.velocity[row])};

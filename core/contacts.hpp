@@ -6,6 +6,7 @@
 #include "core/assembly.hpp"
 #include "core/contact_table.hpp"
 #include "core/scatter_plan.hpp"
+#include "core/share.hpp"
 
 namespace breccia {
 
@@ -27,8 +28,9 @@ struct ContactSearch {
 ContactSearch make_contact_search(const Assembly& assembly, bool enabled, double skin);
 
 /// True when surfaces without a bond may have come within reach since the list was made.
-bool search_is_due(ContactSearch& search, const ParticleTable& particles, std::uint64_t step, double dt,
-                   int threads);
+/// Every rank comes to the same answer.
+bool search_is_due(ContactSearch& search, const ParticleTable& particles, const Share& share,
+                   std::uint64_t step, double dt, int threads);
 
 /// See the column arm_offset.
 inline double contact_arm_offset(double radius_lo, double radius_hi) {

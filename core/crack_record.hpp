@@ -24,6 +24,7 @@ struct Crack {
 struct CrackRecord {
   bool enabled = true;
   std::vector<Crack> cracks;
+  std::size_t collected = 0;  ///< of them, that the rows of the curve have counted
   std::size_t missed = 0;  ///< broke in a step that broke more bonds at once than are noted
 
   std::vector<std::vector<FreshBreak>> room;  ///< per range of bonds

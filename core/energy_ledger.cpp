@@ -86,7 +86,7 @@ double normal_damage(const World& w) {
   const BondTable& b = w.bonds;
   return std::visit(
       [&](const auto& law) {
-        return sum_rows<double>(b.size, w.options.threads, blocks, [&](std::size_t k) {
+        return sum_pairs(w.share, b, w.options.threads, blocks, [&](std::size_t k) {
           const double damage = b.damage_normal[k];
           if (!(damage > 0.0)) return 0.0;
           const BondConstants<double> bond = constants_of_bond(b, k);
@@ -95,6 +95,33 @@ double normal_damage(const World& w) {
         });
       },
       w.law);
+}
+
+std::size_t blocks_of(std::size_t rows) { return (rows + LoadBlock::capacity - 1) / LoadBlock::capacity; }
+
+struct SkinWork {
+  double over_this = 0, over_next = 0;  ///< J
+  SkinWork& operator+=(const SkinWork& o) {
+    over_this += o.over_this, over_next += o.over_next;
+    return *this;
+  }
+};
+
+struct Losses {
+  BondLosses<double> bonds;
+  ContactLosses contacts;
+};
+
+/// Added up in the order of ranks: other numbers of ranks differ in the last digits.
+Losses losses_of_all(const World& w) {
+  const Ranks& ranks = w.share.ranks;
+  const Losses mine{total_bond_losses(w.ledger), total_contact_losses(w.ledger)};
+  if (ranks.alone()) return mine;
+  std::vector<Losses> all(static_cast<std::size_t>(ranks.count));
+  gather_all(ranks, &mine, std::vector<std::size_t>(all.size(), sizeof(Losses)), all.data());
+  Losses sum;
+  for (const Losses& loss : all) add(sum.bonds, loss.bonds), add(sum.contacts, loss.contacts);
+  return sum;
 }
 
 /// The books begin at the forces of the first step: there was no step before it to end with them.
@@ -113,38 +140,61 @@ void begin_ledger(World& w, const StepWork& work) {
 EnergyLedger open_ledger(const World& w) {
   EnergyLedger ledger;
   ledger.enabled = true;
-  ledger.bonds.resize((w.bonds.padded + LoadBlock::capacity - 1) / LoadBlock::capacity);
+  ledger.bonds.resize(blocks_of(w.bonds.padded));
+  ledger.own_bonds = ledger.bonds.size();
   return ledger;
 }
 
-void renew_contacts(EnergyLedger& ledger, std::size_t contacts) {
+void renew_contacts(EnergyLedger& ledger, const ContactTable& contacts) {
   if (!ledger.enabled) return;
-  for (const ContactLosses& loss : ledger.contacts) {
-    ledger.earlier_contacts.viscous += loss.viscous;
-    ledger.earlier_contacts.friction += loss.friction;
-  }
-  ledger.contacts.assign((contacts + LoadBlock::capacity - 1) / LoadBlock::capacity, {});
+  ledger.earlier_contacts = total_contact_losses(ledger);
+  ledger.contacts.assign(blocks_of(contacts.padded), {});
+  ledger.own_contacts = blocks_of(contacts.size);
 }
 
 void book_motion(World& w) {
   EnergyLedger& ledger = w.ledger;
   if (!ledger.enabled) return;
   std::vector<StepWork> blocks;
-  const StepWork work = sum_rows<StepWork>(w.particles.size, w.options.threads, blocks,
-                                           [&](std::size_t row) { return work_on(w, row); });
+  const StepWork work = sum_particles(w.share, w.options.threads, blocks,
+                                      [&](std::size_t row) { return work_on(w, row); });
   ledger.kinetic = work.kinetic;
   if (w.step == 0) return begin_ledger(w, work);
   ledger.platens.add(work.held_this, work.held_next);
   ledger.damped_motion.add(work.motion_this, work.motion_next);
   ledger.damped_spin.add(work.spin_this, work.spin_next);
   if (w.confinement.rigid || w.confinement.rows.empty()) return;
-  double over_this = 0.0, over_next = 0.0;
-  for (std::size_t k = 0; k < w.confinement.rows.size() && w.confinement.pressure != 0.0; ++k) {
-    const Row row = w.confinement.rows[k];
-    over_this += 0.5 * w.dt * dot(w.confinement.force[k], w.particles.velocity[row]);
-    over_next += 0.5 * w.dt * dot(w.confinement.force[k], braked_motion(w, row).after);
-  }
-  ledger.pressure.add(over_this, over_next);
+  std::vector<SkinWork> skin_blocks;
+  SkinWork skin;
+  if (w.confinement.pressure != 0.0)
+    skin = sum_listed(w.share, w.confinement.rows, 1, skin_blocks, [&](std::size_t k) {
+      const Row row = w.confinement.rows[k];
+      const Vec3& force = w.confinement.force[k];
+      return SkinWork{0.5 * w.dt * dot(force, w.particles.velocity[row]),
+                      0.5 * w.dt * dot(force, braked_motion(w, row).after)};
+    });
+  ledger.pressure.add(skin.over_this, skin.over_next);
+}
+
+void add(BondLosses<double>& sum, const BondLosses<double>& loss) {
+  sum.plastic += loss.plastic, sum.viscous += loss.viscous, sum.damage += loss.damage;
+  sum.friction += loss.friction, sum.failure += loss.failure;
+}
+
+void add(ContactLosses& sum, const ContactLosses& loss) {
+  sum.viscous += loss.viscous, sum.friction += loss.friction;
+}
+
+BondLosses<double> total_bond_losses(const EnergyLedger& ledger) {
+  BondLosses<double> sum;
+  for (const BondLosses<double>& loss : std::span(ledger.bonds).first(ledger.own_bonds)) add(sum, loss);
+  return sum;
+}
+
+ContactLosses total_contact_losses(const EnergyLedger& ledger) {
+  ContactLosses sum = ledger.earlier_contacts;
+  for (const ContactLosses& loss : std::span(ledger.contacts).first(ledger.own_contacts)) add(sum, loss);
+  return sum;
 }
 
 EnergyBalance balance(const World& w) {
@@ -153,14 +203,8 @@ EnergyBalance balance(const World& w) {
   e.work = ledger.platens.done + ledger.pressure.done + ledger.start;
   e.kinetic = ledger.kinetic;
   e.stored = stored_energy(w, w.dt);
-  BondLosses<double> bonds;
-  for (const BondLosses<double>& loss : ledger.bonds) {
-    bonds.plastic += loss.plastic, bonds.viscous += loss.viscous, bonds.damage += loss.damage;
-    bonds.friction += loss.friction, bonds.failure += loss.failure;
-  }
-  ContactLosses contacts = ledger.earlier_contacts;
-  for (const ContactLosses& loss : ledger.contacts)
-    contacts.viscous += loss.viscous, contacts.friction += loss.friction;
+  const Losses losses = losses_of_all(w);
+  const auto& [bonds, contacts] = losses;
   e.plastic = bonds.plastic;
   e.damage = bonds.damage + normal_damage(w);
   e.friction = bonds.friction + contacts.friction;

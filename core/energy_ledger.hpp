@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/boundary.hpp"
+#include "core/contact_table.hpp"
 #include "kernels/contact_pass.hpp"
 #include "kernels/integrate.hpp"
 
@@ -53,6 +54,8 @@ struct EnergyLedger {
   std::vector<BondLosses<double>> bonds;  ///< a sum for each 64 bonds
   std::vector<ContactLosses> contacts;    ///< a sum for each 64 contacts of the present list
   ContactLosses earlier_contacts;         ///< of the lists before
+  /// Of these sums, those that count here: behind them come copies of what other ranks own
+  std::size_t own_bonds = 0, own_contacts = 0;
   TrapezoidSum platens, pressure;         ///< work in
   TrapezoidSum damped_motion, damped_spin;
   double kinetic = 0;  ///< J, at the end of the last step
@@ -63,17 +66,23 @@ struct EnergyLedger {
   double worst_loss = 0;     ///< J, by which a channel that can only grow has been below zero
 };
 
+/// Of this rank.
+BondLosses<double> total_bond_losses(const EnergyLedger& ledger);
+ContactLosses total_contact_losses(const EnergyLedger& ledger);
+void add(BondLosses<double>& sum, const BondLosses<double>& loss);
+void add(ContactLosses& sum, const ContactLosses& loss);
+
 /// Empty books for the bonds of a world.
 EnergyLedger open_ledger(const World& world);
 
 /// After the list of contacts was made anew.
-void renew_contacts(EnergyLedger& ledger, std::size_t contacts);
+void renew_contacts(EnergyLedger& ledger, const ContactTable& contacts);
 
 /// Books what platens, pressure and global damping do in this step: called when the forces are complete and
 /// the velocities are not yet kicked.
 void book_motion(World& world);
 
-/// At the end of the last step.
+/// At the end of the last step, of all ranks.
 EnergyBalance balance(const World& world);
 
 /// Takes note of a balance; the errors below are the largest of all that were noted.

@@ -44,11 +44,12 @@ Gauge lateral_gauge(const Assembly& a) {
   return g;
 }
 
-double read_gauge(const Gauge& gauge, std::span<const Vec3> position, std::span<const Vec3> reference) {
-  double strain = 0.0;
-  for (std::size_t k = 0; k < gauge.rows.size(); ++k)
-    strain += dot(gauge.weights[k], position[gauge.rows[k]] - reference[gauge.rows[k]]);
-  return strain;
+double read_gauge(const Gauge& gauge, std::span<const Vec3> position, std::span<const Vec3> reference,
+                  const Share& share) {
+  std::vector<double> blocks;
+  return sum_listed(share, gauge.rows, 1, blocks, [&](std::size_t k) {
+    return dot(gauge.weights[k], position[gauge.rows[k]] - reference[gauge.rows[k]]);
+  });
 }
 
 }  // namespace breccia

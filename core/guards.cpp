@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -106,7 +107,8 @@ bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) 
 void check_numbers(const World& w, double kinetic, double stored) {
   if (std::isfinite(kinetic) && std::isfinite(stored)) return;
   const ParticleTable& p = w.particles;
-  for (std::size_t k = 0; k < p.size; ++k) {
+  const Rows own = w.share.own();
+  for (std::size_t k = own.first; k < own.last; ++k) {
     const bool spin = p.spin.empty() || is_finite(p.spin[k]);
     const char* lost = !is_finite(p.velocity[k])   ? "velocity"
                        : !is_finite(p.position[k]) ? "position"
@@ -123,13 +125,15 @@ void check_numbers(const World& w, double kinetic, double stored) {
   stop(w, "the energy is not a number", 0);
 }
 
-/// The particle with the most kinetic energy of translation.
-Row most_energetic(const ParticleTable& p) {
-  const auto energy = [&](Row k) { return p.mass[k] * dot(p.velocity[k], p.velocity[k]); };
-  Row most = 0;
-  for (Row k = 1; k < p.size; ++k)
+/// The particle of this rank with the most kinetic energy of translation.
+Row most_energetic(const World& w) {
+  const ParticleTable& p = w.particles;
+  const auto energy = [&](std::size_t k) { return p.mass[k] * dot(p.velocity[k], p.velocity[k]); };
+  const Rows own = w.share.own();
+  std::size_t most = std::min(own.first, p.size - 1);
+  for (std::size_t k = own.first; k < own.last; ++k)
     if (energy(k) > energy(most)) most = k;
-  return most;
+  return static_cast<Row>(most);
 }
 
 /// J, of the layers in the motion that the platens prescribe: not the specimen's own.
@@ -148,13 +152,14 @@ double work_since(Guards& g, const World& w) {
   double work = w.platens.work - g.platen_work;
   g.platen_work = w.platens.work;
   const Confinement& c = w.confinement;
-  for (std::size_t k = 0; k < c.rows.size(); ++k) {
-    const Vec3& x = w.particles.position[c.rows[k]];
-    work += 0.5 * dot(g.push[k] + c.force[k], x - g.skin[k]);
-    g.skin[k] = x;
-    g.push[k] = c.force[k];
-  }
-  return work;
+  std::vector<double> blocks;
+  return work + sum_listed(w.share, c.rows, 1, blocks, [&](std::size_t k) {
+           const Vec3& x = w.particles.position[c.rows[k]];
+           const double by_pressure = 0.5 * dot(g.push[k] + c.force[k], x - g.skin[k]);
+           g.skin[k] = x;
+           g.push[k] = c.force[k];
+           return by_pressure;
+         });
 }
 
 void check_energy(Guards& g, const World& w, double kinetic, double stored) {
@@ -166,7 +171,7 @@ void check_energy(Guards& g, const World& w, double kinetic, double stored) {
   // yields seems to hold more than it does
   if (there > bound) there = own + stored_energy(w, w.dt);
   if (there > bound) {
-    const Row row = most_energetic(w.particles);
+    const Row row = most_energetic(w);
     stop(
         w,
         fmt::format("energy comes from nowhere: {:.3g} J kinetic and stored, where {:.3g} J are explained by "
@@ -181,15 +186,16 @@ void check_energy(Guards& g, const World& w, double kinetic, double stored) {
 /// @returns m/s, the largest speed
 double check_speeds(const Guards& g, const World& w) {
   const ParticleTable& p = w.particles;
+  const Rows own = w.share.own();
   double most = 0.0;
-  for (Row k = 0; k < p.size; ++k) {
+  for (std::size_t k = own.first; k < own.last; ++k) {
     const double speed = norm(p.velocity[k]);
     most = std::max(most, speed);
     if (speed > g.fastest)
       stop(w,
            fmt::format("particle {} moves at {:.3g} m/s, faster than a wave in the stiffest bond, {:.3g} m/s",
                        p.gid[k], speed, g.fastest),
-           k);
+           Row(k));
   }
   return most;
 }
@@ -198,7 +204,7 @@ double check_speeds(const Guards& g, const World& w) {
 void check_balance(const World& w) {
   constexpr std::uint64_t first_steps = 500;  // work and losses are next to nothing before
   if (!w.ledger.enabled || w.step < first_steps || energy_error(w.ledger) < out_of_balance) return;
-  const Row row = most_energetic(w.particles);
+  const Row row = most_energetic(w);
   stop(w,
        fmt::format("energy is out of balance: {:.1f} % of the work put in is missing, or came back from what "
                    "was lost",
@@ -232,13 +238,14 @@ void check_turns(const World& w) {
 
 void check_places(const Guards& g, const World& w) {
   const ParticleTable& p = w.particles;
-  for (Row k = 0; k < p.size; ++k)
+  const Rows own = w.share.own();
+  for (std::size_t k = own.first; k < own.last; ++k)
     if (const double away = norm(p.position[k] - g.centre); away > lost_sizes * g.size)
       stop(w,
            fmt::format(
                "particle {} is lost: {:.3g} m from the middle of a specimen of {:.3g} m, at {:.3g} m/s",
                p.gid[k], away, g.size, norm(p.velocity[k])),
-           k, advice_for_lost(w, k));
+           Row(k), advice_for_lost(w, Row(k)));
 }
 
 }  // namespace
@@ -286,7 +293,9 @@ Guards make_guards(const World& w) {
   return g;
 }
 
-void check(Guards& g, const World& w, double kinetic, double stored) {
+namespace {
+
+void check_here(Guards& g, const World& w, double kinetic, double stored) {
   check_numbers(w, kinetic, stored);
   check_energy(g, w, kinetic, stored);
   check_balance(w);
@@ -294,6 +303,31 @@ void check(Guards& g, const World& w, double kinetic, double stored) {
   const double speed = check_speeds(g, w);
   if (2.0 * speed * w.dt > 0.05 * g.shortest) check_turns(w);
   check_places(g, w);
+}
+
+/// The complaint of the lowest rank that has one, on every rank.
+std::string complaint_of_all(const Ranks& ranks, const std::string& mine) {
+  if (!any(ranks, !mine.empty())) return {};
+  const std::vector<std::size_t> sizes = sizes_of_all(ranks, mine.size());
+  std::string all(std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}), ' ');
+  gather_all(ranks, mine.data(), sizes, all.data());
+  for (const std::size_t size : sizes)
+    if (size > 0) return all.substr(0, size);
+  return {};
+}
+
+}  // namespace
+
+void check(Guards& g, const World& w, double kinetic, double stored) {
+  if (w.share.ranks.alone()) return check_here(g, w, kinetic, stored);
+  std::string complaint;
+  try {
+    check_here(g, w, kinetic, stored);
+  } catch (const SimulationBroke& broke) {
+    complaint = broke.what();
+  }
+  complaint = complaint_of_all(w.share.ranks, complaint);
+  if (!complaint.empty()) throw SimulationBroke(complaint);
 }
 
 }  // namespace breccia

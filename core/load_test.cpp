@@ -72,15 +72,14 @@ void note_run_time(Run& run) {
 
 /// Tells a program how far a run is, a few times a second, and what has cracked.
 void tell(Run& run, int stage, double fraction, const CurveRow& row) {
-  std::vector<Crack>& cracks = run.w.cracks.cracks;
-  std::size_t& told = run.state.cracks_told;
-  if (run.hooks.cracks && cracks.size() > told) {
+  const std::size_t fresh = collect_cracks(run.w, row.axial_strain);
+  if (!run.w.share.ranks.is_root()) return;
+  const std::vector<Crack>& cracks = whole_of(run.w).cracks.cracks;
+  if (run.hooks.cracks && fresh > 0) {
     const Lap lap(run.w.phases, Phase::output);
-    const std::span fresh = std::span(cracks).subspan(told);
-    for (Crack& crack : fresh) crack.axial_strain = row.axial_strain;
-    run.hooks.cracks(fresh);
-    told = cracks.size();
+    run.hooks.cracks(std::span(cracks).last(fresh));
   }
+  run.state.cracks_told = cracks.size();
   const auto now = Clock::now();
   if (!run.hooks.progress || now - run.told < std::chrono::milliseconds(100)) return;
   run.told = now;
@@ -90,20 +89,26 @@ void tell(Run& run, int stage, double fraction, const CurveRow& row) {
 /// Pictures of the state, evenly spaced over the run, and one at its end.
 void frame_if_due(Run& run, double done, const CurveRow& row, bool last) {
   const int frames = run.test.frames;
-  if (frames <= 0 || !run.hooks.frame) return;
+  if (frames <= 0) return;
   if (!last && done * frames < static_cast<double>(run.state.frames)) return;
   const Lap lap(run.w.phases, Phase::output);
-  run.hooks.frame(run.w, run.state.frames++, row);
+  World& whole = bring_together(run.w);
+  if (run.hooks.frame && run.w.share.ranks.is_root()) run.hooks.frame(whole, run.state.frames, row);
+  ++run.state.frames;
 }
 
 /// @returns true when the run is to end here, interrupted
 bool checkpoint_if_due(Run& run) {
-  const bool interrupted = run.interrupted();
-  const bool due = run.hooks.checkpoint_due && run.hooks.checkpoint_due();
-  if (run.hooks.checkpoint && (interrupted || due)) {
+  const Ranks& ranks = run.w.share.ranks;
+  const bool due = run.hooks.checkpoint_due && ranks.is_root() && run.hooks.checkpoint_due();
+  double asked[] = {run.interrupted() ? 1.0 : 0.0, due ? 1.0 : 0.0};
+  largest_of_all(ranks, asked);
+  const bool interrupted = asked[0] > 0.0;
+  if (run.hooks.checkpoint && (interrupted || asked[1] > 0.0)) {
     const Lap lap(run.w.phases, Phase::checkpoint);
     note_run_time(run);
-    run.hooks.checkpoint(run.w, run.state, run.result);
+    World& whole = bring_together(run.w);
+    if (ranks.is_root()) run.hooks.checkpoint(whole, run.state, run.result);
   }
   if (interrupted) run.result.stopped = Stopped::interrupted;
   return interrupted;

@@ -36,11 +36,14 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("step_first_dt", w.step_watch.first_dt);
 
   visit("cracks", w.cracks.cracks);
+  visit("cracks_collected", w.cracks.collected);
   visit("cracks_missed", w.cracks.missed);
 
   if (!w.ledger.enabled) return;
   visit("ledger_bonds", w.ledger.bonds);
   visit("ledger_contacts", w.ledger.contacts);
+  visit("ledger_own_bonds", w.ledger.own_bonds);
+  visit("ledger_own_contacts", w.ledger.own_contacts);
   visit("ledger_earlier_contacts", w.ledger.earlier_contacts);
   visit("ledger_platens", w.ledger.platens);
   visit("ledger_pressure", w.ledger.pressure);

@@ -60,6 +60,19 @@ bool same_series(const ScalingPoint& a, const ScalingPoint& b) {
          (a.study == ScalingStudy::weak || a.spheres == b.spheres);
 }
 
+/// What the ranks share, and how evenly.
+void measure_parts(const World& w, ScalingRun& run) {
+  std::size_t rows = 0, bonds = 0;
+  for (const Neighbour& n : w.share.neighbours) rows += n.receive.size();
+  for (std::size_t k = 0; k < w.bonds.padded; ++k) bonds += w.bonds.stiffness[k] > 0.0;
+  double most[] = {static_cast<double>(rows), static_cast<double>(bonds)};
+  largest_of_all(w.share.ranks, most);
+  double all = 0.0;
+  for (const std::size_t one : sizes_of_all(w.share.ranks, bonds)) all += static_cast<double>(one);
+  run.halo_rows = static_cast<std::size_t>(most[0]);
+  run.imbalance = most[1] * w.share.ranks.count / all - 1.0;
+}
+
 }  // namespace
 
 double ScalingRun::all_seconds() const { return std::accumulate(seconds.begin(), seconds.end(), 0.0); }
@@ -78,7 +91,7 @@ ScalingSpecimen make_scaling_specimen(std::size_t spheres, const Material& mater
 
 ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& material,
                            const ScalingPoint& point, const ScalingBlocks& blocks,
-                           const ScalingProgress& progress) {
+                           const ScalingProgress& progress, const Ranks& ranks) {
   // ranges alone do not bind: TBB would spread them over all its threads, each with caches of its own
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(point.threads));
@@ -90,6 +103,12 @@ ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& mate
   ScalingRun run;
   run.point = point;
   run.steps = blocks.steps;
+  run.ranks = ranks.count;
+  run.bonds = w.bonds.size;
+  if (!ranks.alone()) {
+    w = cut(std::move(w), ranks);
+    measure_parts(w, run);
+  }
   BlockClock clock(blocks, run);
   LoadHooks load;
   load.interrupted = [&] { return clock.tick(w); };
@@ -103,14 +122,14 @@ ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& mate
   result.record.capacity = blocks.all_steps() / ScalingBlocks::steps_per_row + 2;
   run_load_test(w, specimen.assembly, compression(), load, result);
 
-  run.bonds = w.bonds.size;
   const BrokenCount broken = count_broken(w);
   run.broken = broken.tension + broken.shear;
   run.alpha = w.alpha;
   run.time_step = w.dt;
   run.table_bytes = column_bytes(w.particles) + column_bytes(w.bonds) + column_bytes(w.contacts);
   run.peak_bytes = peak_memory();
-  run.state_hash = state_hash(w.particles, w.bonds);
+  const World& whole = bring_together(w);
+  run.state_hash = state_hash(whole.particles, whole.bonds);
   return run;
 }
 

@@ -54,6 +54,8 @@ ScalingSpecimen make_scaling_specimen(std::size_t spheres, const Material& mater
 struct ScalingRun {
   ScalingPoint point;
   int ranks = 1;
+  std::size_t halo_rows = 0;  ///< of particles that a rank gets from others at every step, the most
+  double imbalance = 0;       ///< bonds that a rank computes, the most over the mean, less 1
   std::size_t bonds = 0, broken = 0;  ///< broken: at the end
   std::size_t steps = 0;              ///< in each block
   std::vector<double> seconds;        ///< wall time of each block, whole steps: what a test spends on them
@@ -71,10 +73,11 @@ using ScalingProgress = std::function<void(const World&, double, const CurveRow&
 
 /// The test as breccia-ucs runs it, from rest, on at most as many threads as the point says.
 /// @param blocks  at most `most_steps` in all
+/// @param ranks   all of them call; what the root returns counts
 /// @throws SimulationBroke
 ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& material,
                            const ScalingPoint& point, const ScalingBlocks& blocks,
-                           const ScalingProgress& progress = {});
+                           const ScalingProgress& progress = {}, const Ranks& ranks = {});
 
 /// s, over the blocks.
 Spread step_time(const ScalingRun& run);

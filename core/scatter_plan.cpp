@@ -59,7 +59,9 @@ void plan_gather(ScatterPlan& plan, std::span<const Index> row_lo, std::span<con
                  std::span<const Gid> gid_lo, std::span<const Gid> gid_hi, std::span<const double> arm_offset,
                  std::size_t particles) {
   plan.first_entry.assign(particles + 1, 0);
+  const auto is_padding = [&](std::size_t b) { return gid_lo[b] == gid_hi[b]; };
   for (std::size_t b = 0; b < gid_lo.size(); ++b) {
+    if (is_padding(b)) continue;
     ++plan.first_entry[row_lo[b] + 1];
     ++plan.first_entry[row_hi[b] + 1];
   }
@@ -67,6 +69,7 @@ void plan_gather(ScatterPlan& plan, std::span<const Index> row_lo, std::span<con
   plan.entries.resize(plan.first_entry.back());
   std::vector<Index> next(plan.first_entry.begin(), plan.first_entry.end() - 1);
   for (std::size_t b = 0; b < gid_lo.size(); ++b) {
+    if (is_padding(b)) continue;
     plan.entries[next[row_lo[b]]++] = static_cast<Index>(b << 1);
     plan.entries[next[row_hi[b]]++] = static_cast<Index>(b << 1 | 1u);
   }
@@ -135,11 +138,11 @@ Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span
   return view;
 }
 
-void collect(ScatterPlan& plan, ParticleTable& particles, int threads) {
+void collect(ScatterPlan& plan, ParticleTable& particles, Rows own, int threads) {
   const bool torques = !particles.spin.empty();
   if (plan.kind == ScatterKind::gather) {
-    for_rows(particles.size, threads, [&](std::size_t first, std::size_t last) {
-      for (std::size_t p = first; p < last; ++p) {
+    for_rows(own.last - own.first, threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t p = own.first + first; p < own.first + last; ++p) {
         Vec3 force, torque;
         for (Index e = plan.first_entry[p]; e < plan.first_entry[p + 1]; ++e) {
           const Index entry = plan.entries[e];

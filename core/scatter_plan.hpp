@@ -7,6 +7,7 @@
 
 #include "core/particle_table.hpp"
 #include "core/scene_options.hpp"
+#include "core/share.hpp"
 #include "kernels/scatter.hpp"
 
 namespace breccia {
@@ -41,6 +42,7 @@ Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span
                      std::span<const double> arm_offset, ParticleTable& particles);
 
 /// After the pass: adds the ranges' own sums, or the columns of forces, to the particles.
-void collect(ScatterPlan& plan, ParticleTable& particles, int threads);
+/// @param own  rows that get their sums; of others forces mean nothing
+void collect(ScatterPlan& plan, ParticleTable& particles, Rows own, int threads);
 
 }  // namespace breccia

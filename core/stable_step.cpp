@@ -32,7 +32,7 @@ void set_bond_dashpots(World& w) {
 void set_contact_dashpots(World& w) {
   ContactTable& c = w.contacts;
   if (c.damping.empty()) return;
-  for (std::size_t k = 0; k < c.size; ++k)
+  for (std::size_t k = 0; k < c.padded; ++k)
     c.damping[k] = contact_dashpot(w.dashpots, w.particles, c, k, w.dt);
 }
 

@@ -11,18 +11,23 @@ namespace {
 
 void search_if_due(World& w) {
   const Lap lap(w.phases, Phase::search);
-  if (!search_is_due(w.search, w.particles, w.step, w.dt, w.options.threads)) return;
-  const ContactMaterial material{w.material.young_modulus, w.alpha, w.space};
-  renew_contacts(w.search, w.contacts, w.particles, material, w.features, w.ledger.enabled,
-                 w.options.threads);
-  renew_contacts(w.ledger, w.contacts.size);
+  if (!search_is_due(w.search, w.particles, w.share, w.step, w.dt, w.options.threads)) return;
+  // of several ranks the root lists the contacts and looks at the step, for all of them
+  World& whole = bring_together(w);
+  if (w.share.ranks.is_root()) {
+    const ContactMaterial material{w.material.young_modulus, w.alpha, w.space};
+    renew_contacts(whole.search, whole.contacts, whole.particles, material, whole.features,
+                   whole.ledger.enabled, whole.options.threads);
+    renew_contacts(whole.ledger, whole.contacts);
+    keep_step(whole);
+  }
+  if (!w.share.ranks.alone()) return hand_out_contacts(w);
   plan_contacts(w);
-  keep_step(w);
 }
 
 void confine(World& w) {
   const Lap lap(w.phases, Phase::confinement);
-  press_skin(w.confinement, w.particles);
+  press_skin(w.confinement, w.particles, w.share);
 }
 
 /// The record of cracks looks at the bonds that have just broken.
@@ -49,7 +54,7 @@ void bond_forces(World& w) {
 }
 
 void contact_forces(World& w) {
-  if (w.contacts.size == 0) return;
+  if (w.contacts.padded == 0) return;
   const Lap lap(w.phases, Phase::contacts);
   ParticleTable& p = w.particles;
   ContactTable& c = w.contacts;
@@ -61,17 +66,17 @@ void contact_forces(World& w) {
   for_ranges(w.contact_plan.ranges, [&](int range) {
     contact_pass(in, history, w.contact_plan.first(range), w.contact_plan.first(range + 1), to);
   });
-  collect(w.contact_plan, p, w.options.threads);
+  collect(w.contact_plan, p, w.share.own(), w.options.threads);
 }
 
 void gather_bond_forces(World& w) {
   const Lap lap(w.phases, Phase::gather);
-  collect(w.bond_plan, w.particles, w.options.threads);
+  collect(w.bond_plan, w.particles, w.share.own(), w.options.threads);
 }
 
 void hold_skin(World& w) {
   const Lap lap(w.phases, Phase::confinement);
-  hold_skin(w.confinement, w.particles);
+  hold_skin(w.confinement, w.particles, w.share);
 }
 
 void book_energies(World& w) {
@@ -82,7 +87,7 @@ void book_energies(World& w) {
 
 void move_platens(World& w) {
   const Lap lap(w.phases, Phase::platens);
-  drive_platens(w.platens, w.particles, w.first_top, w.dt);
+  drive_platens(w.platens, w.particles, w.share, w.first_top, w.dt);
 }
 
 void integrate(World& w) {
@@ -92,11 +97,19 @@ void integrate(World& w) {
                       p.force,    p.torque,          p.mass,
                       p.radius,   inertia_factor(w), w.options.features.rotation};
   const GlobalDamping& damping = w.options.global_damping;
-  for_rows(p.free, w.options.threads, [&](std::size_t first, std::size_t last) {
-    w.integrate_free(motion, first, last, w.dt, damping);
+  const Rows free = w.share.own(0, p.free), lower = w.share.own(p.free, w.first_top),
+             upper = w.share.own(w.first_top, p.size);
+  for_rows(free.last - free.first, w.options.threads, [&](std::size_t first, std::size_t last) {
+    w.integrate_free(motion, free.first + first, free.first + last, w.dt, damping);
   });
-  integrate_held(motion, p.free, w.first_top, w.dt, damping, {w.platens.velocity[0], !w.platens.rough});
-  integrate_held(motion, w.first_top, p.size, w.dt, damping, {w.platens.velocity[1], !w.platens.rough});
+  integrate_held(motion, lower.first, lower.last, w.dt, damping, {w.platens.velocity[0], !w.platens.rough});
+  integrate_held(motion, upper.first, upper.last, w.dt, damping, {w.platens.velocity[1], !w.platens.rough});
+}
+
+void exchange(World& w) {
+  if (w.share.ranks.alone()) return;
+  const Lap lap(w.phases, Phase::halo);
+  exchange_motion(w);
 }
 
 }  // namespace
@@ -111,6 +124,7 @@ void advance(World& w) {
   move_platens(w);
   book_energies(w);
   integrate(w);
+  exchange(w);
   w.time += w.dt;
   ++w.step;
 }

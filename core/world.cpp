@@ -73,6 +73,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.particles = assembly.particles;
   w.bonds = assembly.bonds;
   w.first_top = assembly.first_top;
+  w.share = share_alone(w.particles.size);
   set_masses(w.particles, material.density, w.space);
   set_bond_constants(w);
   choose_step(w);
@@ -131,7 +132,7 @@ double inertia_factor(const World& w) {
 
 BrokenCount count_broken(const World& w) {
   std::vector<BrokenCount> blocks;
-  return sum_rows<BrokenCount>(w.bonds.size, w.options.threads, blocks, [&](std::size_t k) {
+  return sum_pairs(w.share, w.bonds, w.options.threads, blocks, [&](std::size_t k) {
     const BondState state = bond_state(w.bonds, k);
     return BrokenCount{std::size_t{state == BondState::broken_tension}, std::size_t{state == BondState::broken_shear}};
   });
@@ -141,7 +142,7 @@ double kinetic_energy(const World& w) {
   std::vector<double> blocks;
   const ParticleTable& p = w.particles;
   const double factor = inertia_factor(w);
-  return sum_rows<double>(p.size, w.options.threads, blocks, [&](std::size_t row) {
+  return sum_particles(w.share, w.options.threads, blocks, [&](std::size_t row) {
     double twice = p.mass[row] * dot(p.velocity[row], p.velocity[row]);
     if (!p.spin.empty()) twice += inertia(factor, p.mass[row], p.radius[row]) * dot(p.spin[row], p.spin[row]);
     return 0.5 * twice;
@@ -156,23 +157,24 @@ double stored_energy(const World& w, double back) {
   };
   const BondTable& b = w.bonds;
   const bool coupled = w.features.criterion == Criterion::coupled;
-  double sum = std::visit(
+  const double sum = std::visit(
       [&](const auto& law) {
-        return sum_rows<double>(b.size, w.options.threads, blocks, [&](std::size_t k) {
+        return sum_pairs(w.share, b, w.options.threads, blocks, [&](std::size_t k) {
           return stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k),
                                distance_of(b.row_lo[k], b.row_hi[k]), coupled);
         });
       },
       w.law);
   const ContactTable& c = w.contacts;
-  for (std::size_t k = 0; k < c.size; ++k) {
-    const double overlap = c.free_length[k] - distance_of(c.row_lo[k], c.row_hi[k]);
-    if (overlap <= 0.0) continue;
-    sum += 0.5 * c.stiffness[k] * overlap * overlap;
-    if (w.shear_ratio > 0.0)
-      sum += 0.5 * dot(c.shear_force[k], c.shear_force[k]) / (w.shear_ratio * c.stiffness[k]);
-  }
-  return sum;
+  if (!w.search.awake) return sum;
+  return sum + sum_pairs(w.share, c, w.options.threads, blocks, [&](std::size_t k) {
+           const double overlap = c.free_length[k] - distance_of(c.row_lo[k], c.row_hi[k]);
+           if (overlap <= 0.0) return 0.0;
+           double energy = 0.5 * c.stiffness[k] * overlap * overlap;
+           if (w.shear_ratio > 0.0)
+             energy += 0.5 * dot(c.shear_force[k], c.shear_force[k]) / (w.shear_ratio * c.stiffness[k]);
+           return energy;
+         });
 }
 
 }  // namespace breccia

@@ -12,6 +12,7 @@
 #include "core/narrow_bonds.hpp"
 #include "core/phases.hpp"
 #include "core/scatter_plan.hpp"
+#include "core/share.hpp"
 #include "core/stable_step.hpp"
 #include "kernels/bond_pass.hpp"
 #include "kernels/integrate.hpp"
@@ -61,6 +62,7 @@ struct World {
   NarrowBonds narrow_bonds;  ///< in mixed precision
   ContactTable contacts;
   std::size_t first_top = 0;
+  Share share;  ///< of this rank
   Platens platens;
   Confinement confinement;
   ContactSearch search;
@@ -102,9 +104,10 @@ struct BrokenCount {
     return *this;
   }
 };
+/// Of all ranks.
 BrokenCount count_broken(const World& world);
 
-/// J
+/// J, of all ranks
 double kinetic_energy(const World& world);
 /// @param back  s, by which the positions are taken back along the velocities: the world's step gives the
 /// moment

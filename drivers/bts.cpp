@@ -1,6 +1,6 @@
 #include "io/test_program.hpp"
 
 int main(int argc, char** argv) {
-  return breccia::run_program("bts", "Brazilian test: a disc pressed along a diameter between two strips.",
+  return breccia::run_laboratory_test("bts", "Brazilian test: a disc pressed along a diameter between two strips.",
                               argc, argv, breccia::run_test_program);
 }

@@ -1,6 +1,6 @@
 #include "io/test_program.hpp"
 
 int main(int argc, char** argv) {
-  return breccia::run_program("hydrostatic", "Hydrostatic compression of a cylinder up to a pressure.", argc,
+  return breccia::run_laboratory_test("hydrostatic", "Hydrostatic compression of a cylinder up to a pressure.", argc,
                               argv, breccia::run_test_program);
 }

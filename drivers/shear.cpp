@@ -1,7 +1,7 @@
 #include "io/test_program.hpp"
 
 int main(int argc, char** argv) {
-  return breccia::run_program(
+  return breccia::run_laboratory_test(
       "shear", "Direct shear of a cylinder or box at half its height, one run per normal stress.", argc, argv,
       breccia::run_test_program);
 }

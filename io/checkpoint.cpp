@@ -201,7 +201,8 @@ void read_checkpoint(const FoundCheckpoint& found, World& w, LoadState& state, L
 
 void remove_checkpoints(const fs::path& folder) {
   std::error_code ignored;
-  for (const fs::path& file : {newest(folder), before(folder)}) fs::remove(file, ignored);
+  for (const fs::path& file : {newest(folder), before(folder), name_aside(newest(folder))})
+    fs::remove(file, ignored);
 }
 
 }  // namespace breccia

@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <csignal>
-#include <cstdlib>
+#include <cstdio>
 #include <new>
+#include <thread>
 
 #include "core/error.hpp"
 #include "io/case.hpp"
@@ -32,11 +34,18 @@ int end(const std::string& program, std::string_view what, int code) {
   return code;
 }
 
-/// Ranks are counted by the launcher's environment: MPI itself is not needed to refuse them.
-void refuse_ranks() {
-  const char* ranks = std::getenv("OMPI_COMM_WORLD_SIZE");
-  if (ranks && std::atoi(ranks) > 1)
-    fail<BadInput>("{} ranks asked for; this version runs on one (use --threads)", ranks);
+/// Of several ranks the root speaks. Another one has something to say only when it alone is in trouble: it waits for
+/// the root's word, which ends the job for all.
+int end_rank(const Ranks& ranks, const std::string& program, std::string_view what, int code) {
+  if (ranks.alone()) return end(program, what, code);
+  if (!ranks.is_root()) {
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    end(fmt::format("{}, rank {}", program, ranks.rank), what, code);
+  } else {
+    end(program, what, code);
+  }
+  std::fflush(nullptr);
+  end_job(code);
 }
 
 }  // namespace
@@ -61,29 +70,36 @@ std::optional<int> read_command_line(CLI::App& app, int argc, char** argv) {
   return std::nullopt;
 }
 
-int run_body(const std::string& program, int threads, const std::function<void()>& body) {
+int run_body(const std::string& program, int threads, const std::function<void()>& body, bool several_ranks) {
   struct sigaction action {};
   action.sa_handler = ask_to_stop;
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
+  Ranks ranks = ranks_of_launcher();
+  if (!ranks.alone() && !several_ranks)
+    return ranks.is_root()
+               ? end(program, fmt::format("{} ranks asked for; this program runs on one (use --threads)", ranks.count), 2)
+               : 2;
+  ranks = join_job();
   try {
-    refuse_ranks();
     body();
   } catch (const BadInput& error) {
-    return end(program, error.what(), 2);
+    return end_rank(ranks, program, error.what(), 2);
   } catch (const SimulationBroke& error) {
-    return end(program, error.what(), 3);
+    return end_rank(ranks, program, error.what(), 3);
   } catch (const FileTrouble& error) {
-    return end(program, error.what(), 4);
+    return end_rank(ranks, program, error.what(), 4);
   } catch (const std::bad_alloc&) {
-    return end(program, "not enough memory: use fewer spheres", 3);
+    return end_rank(ranks, program, "not enough memory: use fewer spheres", 3);
   }
+  leave_job();
   return interrupted() ? 130 : 0;
 }
 
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,
-                const std::function<void(const CommandLine&)>& body, const std::string& keys) {
+                const std::function<void(const CommandLine&)>& body, const std::string& keys,
+                bool several_ranks) {
   const std::string program = "breccia-" + name;
   CommandLine line;
   line.program = name;
@@ -106,8 +122,14 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   return run_body(program, line.threads, [&] {
     if (line.resume && line.force)
       fail<BadInput>("--resume, --force: one keeps the results that are there, the other replaces them; give one");
+    line.ranks = ranks_of_launcher();
     body(line);
-  });
+  }, several_ranks);
+}
+
+int run_laboratory_test(const std::string& name, const std::string& about, int argc, char** argv,
+                        const std::function<void(const CommandLine&)>& body) {
+  return run_program(name, about, argc, argv, body, {}, true);
 }
 
 }  // namespace breccia

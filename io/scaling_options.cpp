@@ -78,9 +78,10 @@ Each point is a test from rest: warm-up, then blocks of steps whose wall times a
 
 DIR/scaling.csv   a line for each point: median, least and most seconds per step, nanoseconds per bond, bond
                   updates per second, speed-up and efficiency over the fewest threads, shares of the phases
-                  of a step, bytes of all tables (spheres, bonds, contacts) per bond, largest resident memory
+                  of a step, bytes of all tables (spheres, bonds, contacts) per bond, largest resident memory;
+                  under mpirun rows that a rank gets from others at every step, and how uneven its bonds are
 DIR/scaling.json  the same with every block, the machine, and the published times
-`scripts/plot DIR` draws them. Threads are not bound to cores: put taskset or numactl in front for that.)";
+`scripts/plot DIR` draws them. `mpirun -n 2 breccia-scaling --threads 1` measures the same on ranks. Threads are not bound to cores: put taskset or numactl in front for that.)";
 
 }  // namespace
 
@@ -140,7 +141,7 @@ std::optional<int> read_scaling_options(int argc, char** argv, ScalingOptions& o
   return std::nullopt;
 }
 
-std::vector<ScalingPoint> scaling_points(const ScalingOptions& o) {
+std::vector<ScalingPoint> scaling_points(const ScalingOptions& o, int ranks) {
   if (o.blocks.all_steps() > ScalingBlocks::most_steps)
     fail<BadInput>("--steps: {} blocks of {} and the warm-up are {} steps; at most {}, while the test lasts",
                    o.blocks.repeat, o.blocks.steps, o.blocks.all_steps(), ScalingBlocks::most_steps);
@@ -152,11 +153,11 @@ std::vector<ScalingPoint> scaling_points(const ScalingOptions& o) {
           points.push_back({ScalingStudy::strong, scatter, threads, spheres});
   if (o.only == ScalingStudy::strong) return points;
   for (const int threads : o.threads) {
-    const std::size_t spheres = o.spheres_per_thread * static_cast<std::size_t>(threads);
+    const std::size_t all_threads = static_cast<std::size_t>(threads) * static_cast<std::size_t>(ranks);
+    const std::size_t spheres = o.spheres_per_thread * all_threads;
     if (spheres > most_spheres)
       fail<BadInput>("--spheres-per-thread: {} on {} threads are {} spheres; at most {} on that many",
-                     o.spheres_per_thread, threads, spheres,
-                     most_spheres / static_cast<std::size_t>(threads));
+                     o.spheres_per_thread, all_threads, spheres, most_spheres / all_threads);
     for (const ScatterKind scatter : o.scatter)
       points.push_back({ScalingStudy::weak, scatter, threads, spheres});
   }

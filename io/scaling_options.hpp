@@ -27,7 +27,8 @@ std::optional<int> read_scaling_options(int argc, char** argv, ScalingOptions& o
 
 /// In the order in which they are measured; points of the same specimen follow each other.
 /// @throws BadInput: more steps than a test has, or more spheres than can be packed
-std::vector<ScalingPoint> scaling_points(const ScalingOptions& options);
+/// @param ranks  of the job, each with the threads of a point
+std::vector<ScalingPoint> scaling_points(const ScalingOptions& options, int ranks = 1);
 
 std::string_view name_of(ScalingStudy study);
 

@@ -27,11 +27,12 @@ std::string heading(const ScalingOptions& o, const ScalingResults& r) {
 }
 
 void run_study(const ScalingOptions& options) {
-  const std::vector<ScalingPoint> points = scaling_points(options);
+  const Ranks ranks = ranks_of_launcher();
+  const std::vector<ScalingPoint> points = scaling_points(options, ranks.count);
   ScalingResults results{describe_machine(), options.blocks, "concrete", {}};
   const Material material = shipped_material(results.material, "breccia-scaling");
-  claim_run_folder(options.out, options.force);
-  Progress progress = make_progress(options.quiet);
+  if (ranks.is_root()) claim_run_folder(options.out, options.force);
+  Progress progress = make_progress(options.quiet || !ranks.is_root());
   say(progress, heading(options, results));
   // a signal ends the program at once: the files hold what has been measured
   ScalingSpecimen specimen;
@@ -48,11 +49,13 @@ void run_study(const ScalingOptions& options) {
     const ScalingProgress shown = [&](const World& w, double fraction, const CurveRow& row) {
       tell(progress, w, 2, fraction, row);
     };
-    results.runs.push_back(measure_scaling(specimen, material, point, options.blocks, shown));
+    results.runs.push_back(measure_scaling(specimen, material, point, options.blocks, shown, ranks));
+    if (!ranks.is_root()) continue;
     write_scaling_csv(options.out / "scaling.csv", results);
     write_scaling_json(options.out / "scaling.json", results);
     say(progress, describe(results.runs.back(), results.runs));
   }
+  if (!ranks.is_root()) return;
   say(progress, format_scaling_tables(results) + format_comparison(results));
   say(progress, fmt::format("written: {}, {}", (options.out / "scaling.csv").string(),
                             (options.out / "scaling.json").string()));
@@ -63,7 +66,7 @@ void run_study(const ScalingOptions& options) {
 int run_scaling_program(int argc, char** argv) {
   ScalingOptions options;
   if (const auto code = read_scaling_options(argc, argv, options)) return *code;
-  return run_body("breccia-scaling", options.threads.back(), [&] { run_study(options); });
+  return run_body("breccia-scaling", options.threads.back(), [&] { run_study(options); }, true);
 }
 
 }  // namespace breccia

@@ -30,7 +30,9 @@ Json values_of(const ScalingRun& run, const std::vector<ScalingRun>& runs) {
               {"ns_per_bond", 1e9 * t.median / static_cast<double>(run.bonds)},
               {"bond_updates_per_s", bond_updates(run)},
               {"speed_up", gain.speed_up},
-              {"efficiency", gain.efficiency}};
+              {"efficiency", gain.efficiency},
+              {"halo_rows", run.halo_rows},
+              {"imbalance", run.imbalance}};
   for (std::size_t k = 0; k < phase_names.size(); ++k)
     values[fmt::format("share_{}", phase_names[k])] = run.phases.seconds[k] / run.all_seconds();
   values["share_other"] = 1.0 - run.phases.total() / run.all_seconds();

@@ -117,6 +117,7 @@ std::string title_of(const Case& c, std::size_t k) {
 /// One run of a series and what it writes to.
 struct RunOfSeries {
   const Case& c;
+  const Ranks& ranks;
   const std::string& test;
   std::size_t k = 0;
   const fs::path& folder;
@@ -151,12 +152,15 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
   const LoadTest load = load_test(run.c, run.test, run.k);
   const int number = static_cast<int>(run.k);
   begin(run.progress, title_of(run.c, run.k));
-  begin_files(run, w, load, state.stage != Stage::not_begun);
   std::optional<CrackFile> crack_file;
-  if (w.cracks.enabled) {
-    crack_file.emplace(run.folder / fmt::format("cracks-{}.csv", run.k));
-    crack_file->add(std::span(w.cracks.cracks).first(state.cracks_told));
+  if (run.ranks.is_root()) {
+    begin_files(run, w, load, state.stage != Stage::not_begun);
+    if (w.cracks.enabled) {
+      crack_file.emplace(run.folder / fmt::format("cracks-{}.csv", run.k));
+      crack_file->add(std::span(w.cracks.cracks).first(state.cracks_told));
+    }
   }
+  if (!run.ranks.alone()) w = cut(std::move(w), run.ranks);
 
   LoadHooks hooks;
   hooks.interrupted = interrupted;
@@ -180,13 +184,15 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
     run_load_test(w, a, load, hooks, state, result);
   } catch (...) {
     try {
-      write_curve(curve, result.record.rows);
+      if (run.ranks.is_root()) write_curve(curve, result.record.rows);
     } catch (const FileTrouble&) {  // the first trouble is the one to report
     }
     throw;
   }
+  const World& whole = bring_together(w);
+  if (!run.ranks.is_root()) return {};
   write_curve(curve, result.record.rows);
-  return summarise(run.test, w, a, load, result);
+  return summarise(run.test, whole, a, load, result);
 }
 
 std::string result_line(const Case& c, std::size_t k, const std::string& test, const RunSummary& run) {
@@ -237,7 +243,8 @@ WorkDone find_work(const CommandLine& line, const Case& c, Progress& progress) {
 
 void run_test_program(const CommandLine& line) {
   const Case c = load_case(line.case_file, line.sets, line.program);
-  Progress progress = make_progress(line.quiet);
+  const Ranks& ranks = line.ranks;
+  Progress progress = make_progress(line.quiet || !ranks.is_root());
   const WorkDone work = find_work(line, c, progress);
   if (work.all) return;
   const std::optional<FoundCheckpoint>& found = work.checkpoint;
@@ -254,7 +261,7 @@ void run_test_program(const CommandLine& line) {
   }
 
   begin_results();
-  if (!found) {
+  if (!found && ranks.is_root()) {
     claim_run_folder(line.out, line.force || line.resume);
     write_aside(line.out / "case.toml", c.resolved);
     if (c.frames > 0) create_results(line.out / "results.h5", c.resolved);
@@ -263,8 +270,10 @@ void run_test_program(const CommandLine& line) {
   series.test = line.program;
   series.version = BRECCIA_VERSION;
   series.threads = line.threads;
+  series.ranks = ranks.count;
   if (found) series.runs = read_runs(found->head.finished);
-  for (std::size_t k = series.runs.size(); k < c.test.confinement.size(); ++k) {
+  Stopped stopped = Stopped::strain;
+  for (std::size_t k = series.runs.size(); k < c.test.confinement.size() && stopped != Stopped::interrupted; ++k) {
     World w = make_world(ready.assembly, c.materials[k], ready.factor, options);
     if (k == 0) say(progress, step_line(w, c.safety));
     LoadState state;
@@ -275,16 +284,17 @@ void run_test_program(const CommandLine& line) {
     }
     const std::string finished = runs_text(series.runs);
     series.runs.push_back(
-        run_one({c, line.program, k, line.out, progress}, w, ready.assembly, finished, state, result));
+        run_one({c, ranks, line.program, k, line.out, progress}, w, ready.assembly, finished, state, result));
+    stopped = result.stopped;
+    if (!ranks.is_root()) continue;
     fit_peaks(series);
     write_summary(line.out / "summary.json", series);
     say(progress, result_line(c, k, line.program, series.runs.back()));
-    if (result.stopped == Stopped::interrupted) break;
   }
-  const bool interrupted = series.runs.back().stopped_by == "interrupted";
-  if (!interrupted) remove_checkpoints(line.out);
+  if (!ranks.is_root()) return;
+  if (stopped != Stopped::interrupted) remove_checkpoints(line.out);
   say(progress, "\n" + format_summary_table(series, line.out));
-  if (interrupted) say(progress, "interrupted; --resume goes on from here");
+  if (stopped == Stopped::interrupted) say(progress, "interrupted; --resume goes on from here");
 }
 
 }  // namespace breccia

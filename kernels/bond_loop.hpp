@@ -117,10 +117,14 @@ template <Features features, class Bonds>
     }
 }
 
+[[gnu::always_inline]] inline auto damaged_lanes(const BondHistory<Lanes>& h) {
+  return h.damage_normal > 0.0 || h.damage_shear > 0.0;
+}
+
 template <Features features>
 [[gnu::always_inline]] inline bool is_damaged(const BondHistory<Lanes>& h) {
   if constexpr (features.breakage)
-    return any(h.damage_normal > 0.0 || h.damage_shear > 0.0);
+    return any(damaged_lanes(h));
   else
     return false;
 }
@@ -138,8 +142,10 @@ template <Features features, class Law, class Bonds>
   if constexpr (features.contact_damping) viscous = bonds.template load<Column::viscous_force>(b);
   LastForces<Lanes> last = forces_before<features>(bond, pair, stretch, before, viscous);
   if (is_damaged<features>(before)) {
-    last.spring = bonds.template load<Column::spring_force>(b);
-    last.shear_factor = bonds.template load<Column::shear_factor>(b);
+    // bond by bond: which others share a register changes with the processor and the number of ranks
+    const auto damaged = damaged_lanes(before);
+    last.spring = select(damaged, bonds.template load<Column::spring_force>(b), last.spring);
+    last.shear_factor = select(damaged, bonds.template load<Column::shear_factor>(b), last.shear_factor);
   }
   const BondLosses<Lanes> loss = losses_of_step<features>(law, bond, pair, stretch, before, h, action, last);
   if constexpr (features.contact_damping) bonds.template store<Column::viscous_force>(b, last.viscous);

@@ -105,7 +105,7 @@ void LayoutRun::pass(double dt) {
   }
   for_ranges(threads_, [&](int range) { pass_over(in, plan.first(range), plan.first(range + 1), to); });
   if (records_.empty())
-    collect(plan, world_.particles, threads_);
+    collect(plan, world_.particles, world_.share.own(), threads_);
   else
     collect_records();
 }

@@ -127,11 +127,6 @@ class Options(ProgramTest):
         self.check_one_line(run("ucs"), 2, "CASE.toml")
         self.check_one_line(run("ucs", self.case, "--threads", "0"), 2, "--threads")
 
-    def test_several_ranks(self):
-        result = run("ucs", self.case, "--out", self.out, env=os.environ | {"OMPI_COMM_WORLD_SIZE": "2"})
-        self.check_one_line(result, 2, "2 ranks")
-        self.assertFalse(self.out.exists())
-
     def test_help(self):
         for program in ("ucs", "triaxial", "pack"):
             result = run(program, "-h")

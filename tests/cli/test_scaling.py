@@ -12,9 +12,9 @@ import unittest
 from programs import BIN, SOURCE, ProgramTest, run, tree
 
 TINY = ("--spheres", "300,500", "--spheres-per-thread", "300", "--threads", "2,1", "--steps", "20", "--repeat", "3", "--warm-up", "20")
-PHASES = "search confinement bonds gather contacts platens ledger integrate measure output checkpoint".split()
+PHASES = "search confinement halo bonds gather contacts platens ledger integrate measure output checkpoint".split()
 COLUMNS = ("study scatter ranks threads spheres bonds broken_bonds steps repeats step_median_s step_least_s step_most_s ns_per_bond "
-           "bond_updates_per_s speed_up efficiency".split() + [f"share_{name}" for name in PHASES] +
+           "bond_updates_per_s speed_up efficiency halo_rows imbalance".split() + [f"share_{name}" for name in PHASES] +
            "share_other table_bytes_per_bond peak_rss_bytes".split())
 ONLY_IN_JSON = "block_s phases_s alpha time_step_s table_bytes state_hash".split()
 WORDS = {"study", "scatter"}

@@ -80,7 +80,7 @@ Sums sums_of(Network& n, ScatterKind kind, int ranges, std::size_t batch = 8) {
     if (torques) std::fill(p.torque.begin(), p.torque.begin() + std::ptrdiff_t(p.size), Vec3{});
     const Scatter to = scatter_view(plan, n.lo, n.hi, n.arm_offset, p);
     for_ranges(ranges, [&](int range) { add_range(n, to, plan.first(range), plan.first(range + 1)); });
-    collect(plan, p, ranges);
+    collect(plan, p, {0, p.size}, ranges);
     const Sums before = sums;
     sums.force.assign(p.force.begin(), p.force.begin() + std::ptrdiff_t(p.size));
     if (torques) sums.torque.assign(p.torque.begin(), p.torque.begin() + std::ptrdiff_t(p.size));

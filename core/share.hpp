@@ -1,0 +1,143 @@
+// What a rank owns of a world: a contiguous part of the rows of particles, which lie along a space-filling
+// curve, and the bonds whose lower row is among them. Rows mean the same on every rank.
+//
+// Sums over particles, bonds or lists of rows are taken block of rows by block of rows, then over the blocks
+// in their order. Ranks own whole blocks, so that a sum has the same bits for any number of ranks and threads.
+#pragma once
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "core/ranks.hpp"
+
+namespace breccia {
+
+struct World;
+
+/// Rows [first, last).
+struct Rows {
+  std::size_t first = 0, last = 0;
+};
+
+struct Share {
+  Ranks ranks;
+  std::size_t rows = 0;             ///< of particles, on all ranks
+  std::size_t block = 64;           ///< rows of a block
+  std::vector<std::size_t> bounds;  ///< rank r owns rows [bounds[r], bounds[r + 1]); multiples of `block`
+  std::vector<Neighbour> neighbours;
+  std::shared_ptr<World> whole;  ///< of several ranks, on the root: what files and messages are made from
+  std::size_t first_bond = 0, first_contact = 0;  ///< in the whole tables, of the first that is owned
+
+  Rows own() const {
+    const auto r = static_cast<std::size_t>(ranks.rank);
+    return {bounds[r], bounds[r + 1]};
+  }
+  /// Those of [first, last) that are owned.
+  Rows own(std::size_t first, std::size_t last) const {
+    const Rows mine = own();
+    const std::size_t begin = std::clamp(mine.first, first, last);
+    return {begin, std::clamp(mine.last, begin, last)};
+  }
+  int owner(std::size_t row) const {
+    return static_cast<int>(std::upper_bound(bounds.begin(), bounds.end(), row) - bounds.begin()) - 1;
+  }
+};
+
+/// Everything belongs to the one rank that there is.
+Share share_alone(std::size_t rows);
+
+/// Sum of term(item) over the items of all ranks. T needs += and is copied as it lies.
+/// @param first_at  item with which the given row begins; rises with the row
+/// @param blocks    storage that is kept between calls
+template <class T, class First, class Term>
+T sum_blocks(const Share& s, int threads, std::vector<T>& blocks, const First& first_at, const Term& term) {
+  const std::size_t count = (s.rows + s.block - 1) / s.block;
+  const Rows mine = s.own();
+  const std::size_t begin = mine.first / s.block, end = (mine.last + s.block - 1) / s.block;
+  blocks.assign(count, T{});
+  const int parts = end - begin < 32 ? 1 : threads;  // a few thousand rows are not worth a thread
+  for_ranges(parts, [&](int part) {
+    const std::size_t last_block = begin + range_first(end - begin, part + 1, parts);
+    for (std::size_t b = begin + range_first(end - begin, part, parts); b < last_block; ++b) {
+      T sum{};
+      const std::size_t last = first_at(std::min((b + 1) * s.block, s.rows));
+      for (std::size_t item = first_at(b * s.block); item < last; ++item) sum += term(item);
+      blocks[b] = sum;
+    }
+  });
+  if (!s.ranks.alone()) {
+    std::vector<std::size_t> bytes;
+    for (std::size_t r = 0; r + 1 < s.bounds.size(); ++r)
+      bytes.push_back(((s.bounds[r + 1] + s.block - 1) / s.block - s.bounds[r] / s.block) * sizeof(T));
+    const std::vector<T> own(blocks.begin() + static_cast<std::ptrdiff_t>(begin),
+                             blocks.begin() + static_cast<std::ptrdiff_t>(end));
+    gather_all(s.ranks, own.data(), bytes, blocks.data());
+  }
+  T total{};
+  for (const T& sum : blocks) total += sum;
+  return total;
+}
+
+/// Over all rows of particles.
+template <class T, class Term>
+T sum_particles(const Share& s, int threads, std::vector<T>& blocks, const Term& term) {
+  return sum_blocks(s, threads, blocks, [](std::size_t row) { return row; }, term);
+}
+
+/// Over a list of rows, rising; term is called with places in the list.
+template <class T, class Term>
+T sum_listed(const Share& s, std::span<const Row> list, int threads, std::vector<T>& blocks,
+             const Term& term) {
+  const auto first_at = [&](std::size_t row) {
+    return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), row) - list.begin());
+  };
+  return sum_blocks(s, threads, blocks, first_at, term);
+}
+
+/// Calls work with the places in a list of rising rows that are owned.
+template <class Work>
+void for_own_entries(const Share& s, std::span<const Row> list, const Work& work) {
+  const Rows mine = s.own();
+  const auto at = [&](std::size_t row) {
+    return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), row) - list.begin());
+  };
+  for (std::size_t k = at(mine.first); k < at(mine.last); ++k) work(k);
+}
+
+/// Over the owned bonds or contacts of a table: sorted by the lower row of their ends.
+template <class T, class Table, class Term>
+T sum_pairs(const Share& s, const Table& t, int threads, std::vector<T>& blocks, const Term& term) {
+  const auto first_at = [&](std::size_t row) {
+    std::size_t low = 0, high = t.size;
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      const bool before = std::min<std::size_t>(t.row_lo[middle], t.row_hi[middle]) < row;
+      before ? low = middle + 1 : high = middle;
+    }
+    return low;
+  };
+  return sum_blocks(s, threads, blocks, first_at, term);
+}
+
+/// The part of a whole world that one rank runs; the root keeps the whole one beside it.
+World cut(World whole, const Ranks& ranks);
+
+/// Brings what has changed since to the root's whole world. @returns it; elsewhere the world itself, as stale
+/// as it is
+World& bring_together(World& world);
+
+/// The root's whole world, as it was brought together last; of one rank the world itself.
+World& whole_of(World& world);
+
+/// Takes the cracks of all ranks since the last call into the whole record, in the order of time and of bonds, as
+/// of a row of the curve with this strain. @returns how many
+std::size_t collect_cracks(World& world, double axial_strain);
+
+/// The contacts that the root's whole world has listed anew, and the step that it has chosen, to every rank.
+void hand_out_contacts(World& world);
+
+/// Motion of the particles that other ranks own and bonds or contacts of this one hold.
+void exchange_motion(World& world);
+
+}  // namespace breccia

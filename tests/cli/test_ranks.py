@@ -1,0 +1,148 @@
+#!/usr/bin/python3
+"""Several ranks: the same states and curves as one, whatever their number, threads and interruptions."""
+import csv
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from programs import BIN, ProgramTest, run
+
+GATHER = ("--set", 'run.scatter="gather"')
+# as root and with more ranks than cores, as in a container
+ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+
+CASE = """[specimen]
+file = "specimen.csv"
+diameter = "50 mm"
+height = "100 mm"
+[material]
+preset = "concrete"
+[test]
+confinement = ["0 MPa", "8 MPa"]
+stop_strain = 0.005
+stop_after_peak = 0.2
+[output]
+frames = 3
+"""
+ENERGIES = ("dissipated_J", "work_J")  # books of ranks are added up in their order: the last digits differ
+
+
+def launch(ranks, program, *arguments):
+    words = ["mpirun", "-n", str(ranks), "--oversubscribe", "--bind-to", "none", BIN / f"breccia-{program}", *map(str, arguments)]
+    return subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ | ROOT)
+
+
+@unittest.skipUnless(shutil.which("mpirun"), "mpirun is not installed")
+class SeveralRanks(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.one = cls.shelf / "ranks.toml"
+        cls.one.write_text(CASE.replace("specimen.csv", "packed/specimen.csv"))
+        cls.alone = cls.shelf / "alone"
+        result = run("triaxial", cls.one, *GATHER, "--out", cls.alone, "--threads", "1", "--quiet")
+        assert result.returncode == 0, result.stderr
+
+    def finish(self, process, code=0):
+        out, errors = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, code, errors + out)
+        return out, errors
+
+    def rows(self, folder, run):
+        with (folder / f"curve-{run}.csv").open(newline="") as file:
+            return list(csv.DictReader(file))
+
+    def check_same(self, folder):
+        ours, theirs = (json.loads((f / "summary.json").read_text())["runs"] for f in (folder, self.alone))
+        for key in ("state_hash", "peak_stress_Pa", "steps", "broken_tension", "broken_shear", "step_estimates", "time_step_s",
+                    "lowest_time_step_s", "kinetic_ratio", "stopped_by"):
+            self.assertEqual([one[key] for one in ours], [one[key] for one in theirs], key)
+        for number in (0, 1):
+            theirs = self.rows(self.alone, number)
+            work = float(theirs[-1]["work_J"])
+            for mine, other in zip(self.rows(folder, number), theirs, strict=True):
+                for key in mine:
+                    if key in ENERGIES:
+                        self.assertAlmostEqual(float(mine[key]) / work, float(other[key]) / work, delta=1e-13)
+                    else:
+                        self.assertEqual(mine[key], other[key], key)
+            cracks = f"cracks-{number}.csv"
+            self.assertEqual((folder / cracks).read_text(), (self.alone / cracks).read_text())
+        self.assertEqual(sorted(path.name for path in folder.iterdir()), sorted(path.name for path in self.alone.iterdir()))
+
+    def test_same_bits_on_any_number_of_ranks(self):
+        for ranks, threads in ((2, 1), (4, 1), (3, 2)):
+            with self.subTest(ranks=ranks, threads=threads):
+                out = self.work / f"ranks-{ranks}"
+                text, _ = self.finish(launch(ranks, "triaxial", self.one, *GATHER, "--out", out, "--threads", threads))
+                self.check_same(out)
+                self.assertEqual(json.loads((out / "summary.json").read_text())["ranks"], ranks)
+                self.assertEqual(text.count("300 spheres"), 1)
+
+    def test_every_way_of_summing_comes_to_the_same_strength(self):
+        strength = json.loads((self.alone / "summary.json").read_text())["runs"][1]["peak_stress_Pa"]
+        for scatter in ("private", "atomic"):
+            self.finish(launch(2, "triaxial", self.one, "--set", f'run.scatter="{scatter}"', "--out", self.out, "--threads", 2,
+                               "--force", "--quiet"))
+            ours = json.loads((self.out / "summary.json").read_text())["runs"][1]["peak_stress_Pa"]
+            self.assertAlmostEqual(ours / strength, 1, delta=0.05)
+
+    def test_interrupted_and_taken_up_by_other_ranks(self):
+        often = ("--set", 'run.checkpoint_every="20 ms"')
+        process = launch(2, "triaxial", self.one, *GATHER, *often, "--out", self.out, "--threads", 1, "--quiet")
+        self.wait_for(self.out / "checkpoint-before.h5", process)
+        process.send_signal(signal.SIGUSR1)
+        self.finish(process, 130)
+        process = launch(4, "triaxial", self.one, *GATHER, *often, "--out", self.out, "--resume", "--threads", 1)
+        for _ in range(3):  # and once more, killed
+            time.sleep(0.4)
+            if process.poll() is not None:
+                break
+        process.kill()
+        process.communicate()
+        time.sleep(1)
+        result = run("triaxial", self.one, *GATHER, "--out", self.out, "--resume", "--threads", "1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.check_same(self.out)
+
+    def test_a_dead_rank_ends_the_job(self):
+        process = launch(2, "triaxial", self.one, "--set", "test.platen_speed=0.001", "--out", self.out, "--quiet")
+        self.wait_for(self.out / "results.h5", process)
+        time.sleep(1)
+        ranks = subprocess.run(["pgrep", "-P", str(process.pid), "breccia"], capture_output=True, text=True).stdout.split()
+        self.assertEqual(len(ranks), 2)
+        began = time.monotonic()
+        os.kill(int(ranks[1]), signal.SIGKILL)
+        _, errors = process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - began, 20)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertIn("signal 9", errors)
+
+    def test_trouble_ends_all_ranks_with_one_word_of_ours(self):
+        process = launch(2, "triaxial", self.one, "--set", "test.stop_strain=-1", "--out", self.out)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 2, errors)
+        self.assertEqual([line for line in errors.splitlines() if line.startswith("breccia-")].__len__(), 1, errors)
+        self.assertIn("test.stop_strain", errors)
+        self.assertFalse(self.out.exists())
+
+    def test_studies_run_on_one(self):
+        process = launch(2, "layouts", "--out", self.out)
+        _, errors = process.communicate(timeout=60)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertIn("2 ranks asked for; this program runs on one", errors)
+
+    def wait_for(self, what, process):
+        for _ in range(4000):
+            if what.exists() or process.poll() is not None:
+                break
+            time.sleep(0.005)
+        self.assertIsNone(process.poll(), "the run was over before it could be stopped")
+
+
+if __name__ == "__main__":
+    unittest.main()
