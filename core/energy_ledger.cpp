@@ -81,7 +81,7 @@ StepWork work_on(const World& w, std::size_t row) {
 
 /// J, of damage in the normal direction, a function of the state.
 double normal_damage(const World& w) {
-  if (w.bonds.damage_normal.empty() || w.features.criterion == Criterion::coupled) return 0.0;
+  if (!w.features.breakage || w.features.criterion == Criterion::coupled) return 0.0;
   std::vector<double> blocks;
   const BondTable& b = w.bonds;
   return std::visit(

@@ -288,9 +288,14 @@ Guards make_guards(const World& w) {
   const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * g.farthest;
   for (std::size_t k = 0; k < w.bonds.size; ++k) g.noise += 0.5 * w.bonds.stiffness[k] * rounding * rounding;
   g.platen_work = w.platens.work;
-  for (const Row row : w.confinement.rows) g.skin.push_back(p.position[row]);
-  g.push = w.confinement.force;
+  note_skin(g, w);
   return g;
+}
+
+void note_skin(Guards& g, const World& w) {
+  g.skin.clear();
+  for (const Row row : w.confinement.rows) g.skin.push_back(w.particles.position[row]);
+  g.push = w.confinement.force;
 }
 
 namespace {

@@ -108,7 +108,10 @@ bool checkpoint_if_due(Run& run) {
     const Lap lap(run.w.phases, Phase::checkpoint);
     note_run_time(run);
     World& whole = bring_together(run.w);
-    if (ranks.is_root()) run.hooks.checkpoint(whole, run.state, run.result);
+    if (ranks.is_root()) {
+      note_skin(run.state.guards, whole);  // of several ranks each looks after its own part
+      run.hooks.checkpoint(whole, run.state, run.result);
+    }
   }
   if (interrupted) run.result.stopped = Stopped::interrupted;
   return interrupted;

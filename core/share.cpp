@@ -37,7 +37,7 @@ std::vector<std::size_t> equal_parts(const World& w, std::size_t block, int coun
 /// whole batch, copies of those that only end in its part, padding.
 struct PairsOfRank {
   std::vector<std::size_t> rows;  ///< `none`: padding
-  std::size_t owned = 0, first = 0;
+  std::size_t owned = 0;
   static constexpr std::size_t none = ~std::size_t{0};
 };
 
@@ -47,15 +47,12 @@ PairsOfRank pairs_of_rank(const Share& s, const Table& t) {
   const Rows mine = s.own();
   const auto is_mine = [&](Row row) { return row >= mine.first && row < mine.last; };
   std::vector<std::size_t> copies;
-  pairs.first = t.size;
   for (std::size_t k = 0; k < t.size; ++k) {
     const auto [low, high] = std::minmax(t.row_lo[k], t.row_hi[k]);
-    if (is_mine(low)) {
-      pairs.first = std::min(pairs.first, k);
+    if (is_mine(low))
       pairs.rows.push_back(k);
-    } else if (is_mine(high)) {
+    else if (is_mine(high))
       copies.push_back(k);
-    }
   }
   pairs.owned = pairs.rows.size();
   const auto pad = [&] {
@@ -191,14 +188,19 @@ Share share_alone(std::size_t rows) {
   return s;
 }
 
+Share share_of_rank(const World& whole, const Ranks& ranks) {
+  Share s = share_alone(whole.particles.size);
+  s.ranks = ranks;
+  s.bounds = equal_parts(whole, s.block, ranks.count);
+  return s;
+}
+
 World cut(World all, const Ranks& ranks) {
   const auto whole = std::make_shared<World>(std::move(all));
   World w = *whole;
-  w.share.ranks = ranks;
-  w.share.bounds = equal_parts(*whole, w.share.block, ranks.count);
+  w.share = share_of_rank(*whole, ranks);
   const PairsOfRank bonds = pairs_of_rank(w.share, whole->bonds);
   w.bonds = cut_bonds(whole->bonds, bonds);
-  w.share.first_bond = bonds.first;
   if (w.options.precision == Precision::mixed) w.narrow_bonds = narrow_bonds(w.bonds);
   plan_bonds(w);
   w.cracks = make_crack_record(w.cracks.enabled, w.options.threads, w.bonds.padded);
@@ -214,7 +216,6 @@ World cut(World all, const Ranks& ranks) {
   }
   const PairsOfRank contacts = pairs_of_rank(w.share, whole->contacts);
   w.contacts = cut_table(whole->contacts, contacts);
-  w.share.first_contact = contacts.first;
   w.ledger.contacts.clear();
   w.ledger.own_contacts = 0;
   renew_contacts(w.ledger, w.contacts);
@@ -236,6 +237,9 @@ World& bring_together(World& w) {
   gather_columns(ranks, w.bonds, {0, w.bonds.size}, whole ? &whole->bonds : nullptr, is_remembered);
   gather_columns(ranks, w.contacts, {0, w.contacts.size}, whole ? &whole->contacts : nullptr, is_remembered);
   gather_ledger(ranks, w.ledger, whole ? &whole->ledger : nullptr);
+  std::vector<Vec3> push;
+  for_own_entries(w.share, w.confinement.rows, [&](std::size_t k) { push.push_back(w.confinement.force[k]); });
+  push = gather_elements(ranks, std::span<const Vec3>(push));
   if (!whole) return w;
   whole->time = w.time;
   whole->step = w.step;
@@ -243,9 +247,9 @@ World& bring_together(World& w) {
   whole->critical_dt = w.critical_dt;
   whole->platens = w.platens;
   whole->confinement = w.confinement;
+  whole->confinement.force = std::move(push);
   whole->phases = w.phases;
-  const ContactSearch& mine = w.search;
-  whole->search.next_check = mine.next_check;
+  whole->search.next_check = w.search.next_check;
   return *whole;
 }
 
@@ -262,8 +266,11 @@ std::size_t collect_cracks(World& w, double axial_strain) {
     return fresh;
   }
   std::vector<Crack> fresh = gather_elements(ranks, std::span<const Crack>(mine.cracks));
+  const std::vector<std::size_t> missed = sizes_of_all(ranks, mine.missed);
   mine.cracks.clear();
+  mine.missed = 0;
   if (!w.share.whole) return 0;
+  w.share.whole->cracks.missed += std::accumulate(missed.begin(), missed.end(), std::size_t{0});
   // ranks have bonds in rising order: of one moment they stand in the order of the whole table already
   std::stable_sort(fresh.begin(), fresh.end(), [](const Crack& a, const Crack& b) { return a.time < b.time; });
   for (Crack& crack : fresh) crack.axial_strain = axial_strain;
@@ -307,7 +314,6 @@ void hand_out_contacts(World& w) {
   w.search.position = w.particles.position;
   const PairsOfRank contacts = pairs_of_rank(w.share, listed);
   w.contacts = cut_table(listed, contacts);
-  w.share.first_contact = contacts.first;
   renew_contacts(w.ledger, w.contacts);
   if (lowered) set_dashpots(w);
   plan_contacts(w);

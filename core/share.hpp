@@ -27,7 +27,6 @@ struct Share {
   std::vector<std::size_t> bounds;  ///< rank r owns rows [bounds[r], bounds[r + 1]); multiples of `block`
   std::vector<Neighbour> neighbours;
   std::shared_ptr<World> whole;  ///< of several ranks, on the root: what files and messages are made from
-  std::size_t first_bond = 0, first_contact = 0;  ///< in the whole tables, of the first that is owned
 
   Rows own() const {
     const auto r = static_cast<std::size_t>(ranks.rank);
@@ -47,15 +46,18 @@ struct Share {
 /// Everything belongs to the one rank that there is.
 Share share_alone(std::size_t rows);
 
+/// Of one of several ranks: parts of equal work, neighbours not yet met.
+Share share_of_rank(const World& whole, const Ranks& ranks);
+
 /// Sum of term(item) over the items of all ranks. T needs += and is copied as it lies.
 /// @param first_at  item with which the given row begins; rises with the row
 /// @param blocks    storage that is kept between calls
 template <class T, class First, class Term>
 T sum_blocks(const Share& s, int threads, std::vector<T>& blocks, const First& first_at, const Term& term) {
-  const std::size_t count = (s.rows + s.block - 1) / s.block;
+  const auto block_at = [&](std::size_t row) { return (row + s.block - 1) / s.block; };
   const Rows mine = s.own();
-  const std::size_t begin = mine.first / s.block, end = (mine.last + s.block - 1) / s.block;
-  blocks.assign(count, T{});
+  const std::size_t begin = block_at(mine.first), end = block_at(mine.last);
+  blocks.assign(block_at(s.rows), T{});
   const int parts = end - begin < 32 ? 1 : threads;  // a few thousand rows are not worth a thread
   for_ranges(parts, [&](int part) {
     const std::size_t last_block = begin + range_first(end - begin, part + 1, parts);
@@ -69,7 +71,7 @@ T sum_blocks(const Share& s, int threads, std::vector<T>& blocks, const First& f
   if (!s.ranks.alone()) {
     std::vector<std::size_t> bytes;
     for (std::size_t r = 0; r + 1 < s.bounds.size(); ++r)
-      bytes.push_back(((s.bounds[r + 1] + s.block - 1) / s.block - s.bounds[r] / s.block) * sizeof(T));
+      bytes.push_back((block_at(s.bounds[r + 1]) - block_at(s.bounds[r])) * sizeof(T));
     const std::vector<T> own(blocks.begin() + static_cast<std::ptrdiff_t>(begin),
                              blocks.begin() + static_cast<std::ptrdiff_t>(end));
     gather_all(s.ranks, own.data(), bytes, blocks.data());
