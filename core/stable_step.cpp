@@ -89,12 +89,13 @@ void keep_step(World& w) {
   const std::vector<std::size_t> added = uncounted(w.contacts, watch.counted);
   if (added.empty() || stability_number_bound(scene, added, w.dt) <= watch.room) return;
   watch.counted = pairs_of(w.contacts);
-  for (bool lowered = false;; lowered = true) {
+  constexpr int most_looks = 3;  // one finds the step, the next confirms it, or mends its aim
+  for (int look_number = 0; look_number < most_looks; ++look_number) {
     ++watch.looks;
     const StepLook look = look_at_step(scene, w.dt);
     watch.room = room_below_limit(look.number);
     // the look at a lowered step says how well the one before has aimed
-    const bool well_aimed = !lowered || w.dt <= 1.005 * w.options.safety * look.critical;
+    const bool well_aimed = look_number == 0 || w.dt <= 1.005 * w.options.safety * look.critical;
     if (watch.room >= 0.0 && well_aimed) return;
     w.critical_dt = std::min(w.critical_dt, look.critical);
     w.dt = std::min(w.dt, w.options.safety * w.critical_dt);

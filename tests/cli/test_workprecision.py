@@ -70,7 +70,8 @@ class WorkPrecision(ProgramTest):
         for row, one in zip(rows, runs, strict=True):
             for name, text in row.items():
                 value = one[name]
-                self.assertEqual(text, value if isinstance(value, str) else json.dumps(value) if value is not None else "", name)
+                read = text if isinstance(value, str) else json.loads(text) if text else None
+                self.assertEqual(read, value, name)
 
     def test_errors_follow_from_the_readings(self):
         content = read_json(self.folder)
