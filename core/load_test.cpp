@@ -204,24 +204,29 @@ void set_speed(World& w, Loading loading, double speed) {
   w.platens.velocity[1].z = -inward;
 }
 
+/// The instruments of a stage that is recorded: set to zero, and a first picture taken, unless a checkpoint was made in it.
+Instruments begin_or_go_on(Run& run, Stage stage) {
+  const bool resumed = run.state.stage == stage;
+  const Instruments in =
+      make_instruments(run.w, run.assembly, run.test, resumed ? &run.state.zeros : nullptr);
+  if (resumed) return in;
+  enter(run, stage);
+  run.state.zeros = in.zeros;
+  frame_if_due(run, 0.0, CurveRow{}, false);
+  return in;
+}
+
 /// Stage 2: platens at constant speed, after a ramp without a jump.
 void load(Run& run) {
   World& w = run.w;
   const LoadTest& test = run.test;
-  const bool resumed = run.state.stage == Stage::loading;
-  const Instruments in =
-      make_instruments(w, run.assembly, test, resumed ? &run.state.zeros : nullptr);
-  if (!resumed) {
-    enter(run, Stage::loading);
-    run.state.zeros = in.zeros;
-  }
+  const Instruments in = begin_or_go_on(run, Stage::loading);
   const double width = test.loading == Loading::shear ? w.body.diameter : run.assembly.length();
   const double duration = test.stop_strain * width / (2.0 * test.platen_speed);
   const double crossing = crossing_time(w, run.assembly);
   const double ramp = std::max(2.0 * crossing, 0.05 * duration);
   const double start = run.state.stage_start;
   Recorder& recorder = run.result.record;
-  if (!resumed) frame_if_due(run, 0.0, CurveRow{}, false);
   while (true) {
     double& speed = run.state.speed;
     const double wanted = run.state.direction.sense * test.platen_speed * eased(w.time - start, ramp);
@@ -252,20 +257,13 @@ void load(Run& run) {
 void press_evenly(Run& run) {
   World& w = run.w;
   const LoadTest& test = run.test;
-  const bool resumed = run.state.stage == Stage::pressing;
-  const Instruments in =
-      make_instruments(w, run.assembly, test, resumed ? &run.state.zeros : nullptr);
-  if (!resumed) {
-    enter(run, Stage::pressing);
-    run.state.zeros = in.zeros;
-  }
+  const Instruments in = begin_or_go_on(run, Stage::pressing);
   const double rate = w.material.young_modulus * 2.0 * test.platen_speed / run.assembly.length();
   const double duration = test.confinement / rate,
                ramp = std::max(2.0 * crossing_time(w, run.assembly), 0.05 * duration);
   const double start = run.state.stage_start;
   w.platens.servo = true;
   Recorder& recorder = run.result.record;
-  if (!resumed) frame_if_due(run, 0.0, CurveRow{}, false);
   while (true) {
     double& pressure = run.state.pressure;
     pressure = std::min(test.confinement, pressure + w.dt * rate * eased(w.time - start, ramp));

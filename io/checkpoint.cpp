@@ -1,11 +1,7 @@
 #include "io/checkpoint.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <system_error>
 
 #include "core/error.hpp"

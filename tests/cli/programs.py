@@ -27,6 +27,7 @@ stop_strain = 0.006
 [output]
 frames = 3
 """
+CONFINED = UCS.replace("stop_strain = 0.006", 'confinement = ["0 MPa", "8 MPa"]\nstop_strain = 0.005\nstop_after_peak = 0.2')
 ENDLESS = ("--set", "test.stop_strain=0.5", "--set", "test.stop_after_peak=0", "--set", "output.frames=400")
 
 

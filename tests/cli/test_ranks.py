@@ -9,25 +9,12 @@ import subprocess
 import time
 import unittest
 
-from programs import BIN, ProgramTest, run
+from programs import BIN, CONFINED, ProgramTest, run
 
 GATHER = ("--set", 'run.scatter="gather"')
 # as root and with more ranks than cores, as in a container
 ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
-CASE = """[specimen]
-file = "specimen.csv"
-diameter = "50 mm"
-height = "100 mm"
-[material]
-preset = "concrete"
-[test]
-confinement = ["0 MPa", "8 MPa"]
-stop_strain = 0.005
-stop_after_peak = 0.2
-[output]
-frames = 3
-"""
 ENERGIES = ("dissipated_J", "work_J")  # books of ranks are added up in their order: the last digits differ
 
 
@@ -42,7 +29,7 @@ class SeveralRanks(ProgramTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.one = cls.shelf / "ranks.toml"
-        cls.one.write_text(CASE.replace("specimen.csv", "packed/specimen.csv"))
+        cls.one.write_text(CONFINED.replace("specimen.csv", "packed/specimen.csv"))
         cls.alone = cls.shelf / "alone"
         result = run("triaxial", cls.one, *GATHER, "--out", cls.alone, "--threads", "1", "--quiet")
         assert result.returncode == 0, result.stderr

@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from programs import BIN, ProgramTest, run, tree
+from programs import BIN, CONFINED, ProgramTest, run, tree
 
 GATHER = ("--set", 'run.scatter="gather"', "--set", "output.frames=4")
 OFTEN = ("--set", 'run.checkpoint_every="20 ms"')
@@ -19,14 +19,14 @@ class Resume(ProgramTest):
     def setUpClass(cls):
         super().setUpClass()
         case = cls.shelf / "ucs.toml"
-        case.write_text(CASE.replace("specimen.csv", "packed/specimen.csv"))
+        case.write_text(CONFINED.replace("specimen.csv", "packed/specimen.csv"))
         cls.whole = cls.shelf / "whole"
         result = run("triaxial", case, *GATHER, "--out", cls.whole, "--threads", "2", "--quiet")
         assert result.returncode == 0, result.stderr
 
     def setUp(self):
         super().setUp()
-        self.case = self.write("ucs.toml", CASE)
+        self.case = self.write("ucs.toml", CONFINED)
 
     def start(self, *options):
         return subprocess.Popen([BIN / "breccia-triaxial", self.case, *GATHER, *OFTEN, "--out", self.out, "--quiet", *options],
@@ -122,8 +122,8 @@ class Resume(ProgramTest):
         self.assertEqual(self.interrupt(), 130)
         before = tree(self.out)
         self.check_one_line(self.resume("--set", "time.safety=0.7"), 2, "checkpoint.h5", "time.safety = 0.7, was 0.8", "--force")
-        self.case.write_text(CASE.replace("stop_strain = 0.004", "stop_strain = 0.005"))
-        self.check_one_line(self.resume(), 2, "test.stop_strain = 0.005, was 0.004")
+        self.case.write_text(CONFINED.replace("stop_strain = 0.005", "stop_strain = 0.006"))
+        self.check_one_line(self.resume(), 2, "test.stop_strain = 0.006, was 0.005")
         self.assertEqual(tree(self.out), before)
 
     def test_another_specimen_is_refused(self):
@@ -167,19 +167,6 @@ class Resume(ProgramTest):
         self.check_one_line(self.resume("--force"), 2, "--resume, --force")
         pack = self.write("pack.toml", '[specimen]\ndiameter = "50 mm"\nheight = "100 mm"\npack = { spheres = 50 }\n')
         self.check_one_line(run("pack", pack, "--resume", "--out", self.out), 2, "--resume", "no checkpoints")
-
-
-CASE = """[specimen]
-file = "specimen.csv"
-diameter = "50 mm"
-height = "100 mm"
-[material]
-preset = "concrete"
-[test]
-confinement = ["0 MPa", "4 MPa"]
-stop_strain = 0.004
-stop_after_peak = 0.2
-"""
 
 
 if __name__ == "__main__":
