@@ -276,6 +276,7 @@ std::size_t collect_cracks(World& w, double axial_strain) {
   for (Crack& crack : fresh) crack.axial_strain = axial_strain;
   std::vector<Crack>& all = w.share.whole->cracks.cracks;
   all.insert(all.end(), fresh.begin(), fresh.end());
+  w.share.whole->cracks.collected = all.size();  // for one rank that takes up the run from a checkpoint
   return fresh.size();
 }
 

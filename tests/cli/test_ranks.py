@@ -87,27 +87,34 @@ class SeveralRanks(ProgramTest):
             ours = json.loads((self.out / "summary.json").read_text())["runs"][1]["peak_stress_Pa"]
             self.assertAlmostEqual(ours / strength, 1, delta=0.05)
 
-    def test_interrupted_and_taken_up_by_other_ranks(self):
-        often = ("--set", 'run.checkpoint_every="20 ms"')
-        process = launch(2, "triaxial", self.one, *GATHER, *often, "--out", self.out, "--threads", 1, "--quiet")
-        self.wait_for(self.out / "checkpoint-before.h5", process)
+    def interrupt(self):
+        """Two ranks, stopped while bonds break."""
+        process = launch(2, "triaxial", self.one, *GATHER, "--out", self.out, "--threads", 1, "--quiet")
+        self.wait_for(lambda: (self.out / "cracks-0.csv").exists() and (self.out / "cracks-0.csv").read_text().count("\n") > 20, process)
         process.send_signal(signal.SIGUSR1)
         self.finish(process, 130)
+
+    def test_interrupted_and_taken_up_by_one(self):
+        self.interrupt()
+        result = run("triaxial", self.one, *GATHER, "--out", self.out, "--resume", "--threads", "1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.check_same(self.out)
+
+    def test_interrupted_taken_up_by_other_ranks_and_killed(self):
+        self.interrupt()
+        often = ("--set", 'run.checkpoint_every="20 ms"')
         process = launch(4, "triaxial", self.one, *GATHER, *often, "--out", self.out, "--resume", "--threads", 1)
-        for _ in range(3):  # and once more, killed
-            time.sleep(0.4)
-            if process.poll() is not None:
-                break
+        self.wait_for((self.out / "checkpoint-before.h5").exists, process)
         process.kill()
         process.communicate()
-        time.sleep(1)
+        self.wait_until(lambda: not self.ranks_left())
         result = run("triaxial", self.one, *GATHER, "--out", self.out, "--resume", "--threads", "1")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.check_same(self.out)
 
     def test_a_dead_rank_ends_the_job(self):
         process = launch(2, "triaxial", self.one, "--set", "test.platen_speed=0.001", "--out", self.out, "--quiet")
-        self.wait_for(self.out / "results.h5", process)
+        self.wait_for((self.out / "results.h5").exists, process)
         time.sleep(1)
         ranks = subprocess.run(["pgrep", "-P", str(process.pid), "breccia"], capture_output=True, text=True).stdout.split()
         self.assertEqual(len(ranks), 2)
@@ -132,11 +139,18 @@ class SeveralRanks(ProgramTest):
         self.assertNotEqual(process.returncode, 0)
         self.assertIn("2 ranks asked for; this program runs on one", errors)
 
-    def wait_for(self, what, process):
+    def ranks_left(self):
+        return subprocess.run(["pgrep", "-f", f"^[^ ]*breccia-triaxial .*{self.out}"], capture_output=True, text=True).stdout.split()
+
+    def wait_until(self, so):
         for _ in range(4000):
-            if what.exists() or process.poll() is not None:
-                break
+            if so():
+                return
             time.sleep(0.005)
+        self.fail("waited for nothing")
+
+    def wait_for(self, so, process):
+        self.wait_until(lambda: process.poll() is not None or so())
         self.assertIsNone(process.poll(), "the run was over before it could be stopped")
 
 
