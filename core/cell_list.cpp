@@ -18,7 +18,7 @@ struct Cells {
   std::vector<double> radius;
 };
 
-Cells sort_into_cells(std::span<const Vec3> position, std::span<const double> radius, double side) {
+Cells sort_into_cells(Strided<const Vec3> position, std::span<const double> radius, double side) {
   Vec3 low = position[0], high = position[0];
   for (const Vec3& p : position) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -65,7 +65,7 @@ Cells sort_into_cells(std::span<const Vec3> position, std::span<const double> ra
 
 }  // namespace
 
-std::vector<RowPair> near_pairs(std::span<const Vec3> position, std::span<const double> radius,
+std::vector<RowPair> near_pairs(Strided<const Vec3> position, std::span<const double> radius,
                                 double relative, double absolute, int threads) {
   if (position.empty()) return {};
   const double largest = *std::max_element(radius.begin(), radius.end());

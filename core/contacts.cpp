@@ -60,7 +60,7 @@ ContactSearch make_contact_search(const Assembly& a, bool enabled, double skin) 
 
   // until the nearest unbonded pair can have met, there is nothing to search for
   const auto& r = a.particles.radius;
-  s.position = a.particles.position;
+  s.position = a.particles.position.copy();
   s.slack = s.skin;
   s.reach = 2.0 * *std::max_element(r.begin(), r.end()) + s.skin;
   for (const auto& [i, j] : near_pairs(s.position, r, 0.0, s.skin, 1))
@@ -103,7 +103,7 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
   s.awake = true;
   s.slack = s.skin;
   ++s.rebuilds;
-  s.position = p.position;
+  s.position = p.position.copy();
   std::vector<RowPair> pairs = near_pairs(p.position, p.radius, 0.0, s.skin, threads);
   std::erase_if(pairs, [&](const RowPair& pair) { return are_bonded(s, pair.a, pair.b); });
   std::sort(pairs.begin(), pairs.end(),

@@ -44,7 +44,7 @@ Gauge lateral_gauge(const Assembly& a) {
   return g;
 }
 
-double read_gauge(const Gauge& gauge, std::span<const Vec3> position, std::span<const Vec3> reference,
+double read_gauge(const Gauge& gauge, Strided<const Vec3> position, std::span<const Vec3> reference,
                   const Share& share) {
   std::vector<double> blocks;
   return sum_listed(share, gauge.rows, 1, blocks, [&](std::size_t k) {

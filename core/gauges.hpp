@@ -22,7 +22,7 @@ Gauge axial_gauge(const Assembly& assembly);
 Gauge lateral_gauge(const Assembly& assembly);
 
 /// Strain of the gauge between reference and present positions.
-double read_gauge(const Gauge& gauge, std::span<const Vec3> position, std::span<const Vec3> reference,
+double read_gauge(const Gauge& gauge, Strided<const Vec3> position, std::span<const Vec3> reference,
                   const Share& share);
 
 }  // namespace breccia

@@ -121,7 +121,7 @@ bool search_is_due(const ImpactSearch& search, const ParticleTable& p) {
 
 void renew_contacts(ImpactSearch& search, const ImpactScene& scene, const ParticleTable& p,
                     ImpactContactTable& pairs, ImpactContactTable& walls) {
-  search.position = p.position;
+  search.position = p.position.copy();
   ++search.rebuilds;
   std::vector<Candidate> near;
   for (const auto& [a, b] : near_pairs(p.position, p.radius, 0.0, search.skin, scene.threads))

@@ -128,12 +128,9 @@ Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span
   view.arm_offset = arm_offset;
   // the ranges' own sums are rows past the particles
   if (particles.force.size() < particles.size + plan.slot_count)
-    particles.force.resize(particles.size + plan.slot_count);
+    particles.extend_sums(particles.size + plan.slot_count);
   view.force = particles.force;
-  if (!particles.spin.empty()) {
-    if (particles.torque.size() < particles.force.size()) particles.torque.resize(particles.force.size());
-    view.torque = particles.torque;
-  }
+  view.torque = particles.torque;
   view.bond_load = plan.bond_load;
   return view;
 }

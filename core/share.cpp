@@ -128,17 +128,20 @@ void meet_neighbours(World& w) {
 template <class Table>
 void gather_columns(const Ranks& ranks, const Table& mine, Rows rows, Table* whole, bool (*wanted)(Role)) {
   const std::vector<std::size_t> sizes = sizes_of_all(ranks, rows.last - rows.first);
-  mine.for_each_column([&]<class T>(const ColumnInfo& info, const Column<T>& column) {
+  mine.for_each_column([&](const ColumnInfo& info, const auto& column) {
     if (!wanted(info.role) || column.empty()) return;
+    using T = ValueOf<decltype(column)>;
     std::vector<std::size_t> bytes;
     for (const std::size_t size : sizes) bytes.push_back(size * sizeof(T));
-    Column<T>* to = nullptr;
+    std::vector<T> sent, all(whole ? std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}) : 0);
+    for (std::size_t row = rows.first; row < rows.last; ++row) sent.push_back(column[row]);
+    gather_at_root(ranks, sent.data(), bytes, all.data());
     if (whole)
-      whole->for_each_column([&]<class U>(const ColumnInfo& other, Column<U>& there) {
-        if constexpr (std::is_same_v<T, U>)
-          if (other.name == info.name) to = &there;
+      whole->for_each_column([&](const ColumnInfo& other, auto& there) {
+        if constexpr (std::is_same_v<T, ValueOf<decltype(there)>>)
+          if (other.name == info.name)
+            for (std::size_t row = 0; row < all.size(); ++row) there[row] = all[row];
       });
-    gather_at_root(ranks, column.data() + rows.first, bytes, to ? to->data() : nullptr);
   });
 }
 
@@ -312,7 +315,7 @@ void hand_out_contacts(World& w) {
   w.search.slack = step.slack;
   w.search.rebuilds = step.rebuilds;
   w.search.awake = true;
-  w.search.position = w.particles.position;
+  w.search.position = w.particles.position.copy();
   const PairsOfRank contacts = pairs_of_rank(w.share, listed);
   w.contacts = cut_table(listed, contacts);
   renew_contacts(w.ledger, w.contacts);

@@ -31,12 +31,16 @@ constexpr bool is_needed(Need need, const Features& features) {
   return true;
 }
 
+/// The type of a column's values, whether it lies alone or in records.
+template <class AnyColumn>
+using ValueOf = typename std::decay_t<AnyColumn>::value_type;
+
 /// Bytes that the columns of a table hold, padding included.
 template <class Table>
 std::size_t column_bytes(const Table& table) {
   std::size_t bytes = 0;
   table.for_each_column([&](const ColumnInfo&, const auto& column) {
-    bytes += column.size() * sizeof(typename std::decay_t<decltype(column)>::value_type);
+    bytes += column.size() * sizeof(ValueOf<decltype(column)>);
   });
   return bytes;
 }

@@ -74,7 +74,8 @@ void write_file(const fs::path& path, const CheckpointHead& head, const World& w
 /// @throws BadInput where a table of the file is that of another specimen
 template <class Table>
 void check_identity(hid_t group, const Table& table, std::span<const Row> order) {
-  table.for_each_column([&]<class T>(const ColumnInfo& info, const Column<T>& column) {
+  table.for_each_column([&](const ColumnInfo& info, const auto& column) {
+    using T = ValueOf<decltype(column)>;
     if constexpr (!std::is_same_v<T, Row>) {
       if (!is_identity(info.role)) return;
       const std::string name(info.name);

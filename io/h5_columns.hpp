@@ -43,7 +43,8 @@ void write_rows(hid_t group, const ColumnInfo& info, std::string_view role, cons
 template <class Table>
 void write_columns(hid_t group, const Table& table, std::span<const Row> order, bool (*wanted)(Role),
                    bool plain) {
-  table.for_each_column([&]<class T>(const ColumnInfo& info, const Column<T>& column) {
+  table.for_each_column([&](const ColumnInfo& info, const auto& column) {
+    using T = ValueOf<decltype(column)>;
     if constexpr (!std::is_same_v<T, Row>) {  // rows of this rank mean nothing outside; all are scratch
       if (!wanted(info.role) || column.empty()) return;
       std::vector<T> rows;
@@ -75,7 +76,8 @@ std::vector<T> read_rows(hid_t group, const std::string& name, std::size_t count
 /// The columns of a wanted role that the scene has, back into the rows that they came from.
 template <class Table>
 void read_columns(hid_t group, Table& table, std::span<const Row> order, bool (*wanted)(Role)) {
-  table.for_each_column([&]<class T>(const ColumnInfo& info, Column<T>& column) {
+  table.for_each_column([&](const ColumnInfo& info, auto& column) {
+    using T = ValueOf<decltype(column)>;
     if constexpr (!std::is_same_v<T, Row>) {
       if (!wanted(info.role) || column.empty()) return;
       const std::vector<T> rows = read_rows<T>(group, std::string(info.name), order.size());

@@ -19,7 +19,7 @@ const std::string about =
 
 const std::string results = R"(
 bonds      columns (production), records, blocks of 8 and of 16 bonds side by side
-particles  columns (production), records of position, velocity, spin, force, torque
+particles  records of motion and of sums (production), columns
 sums       private (production), gather, atomic (shared ends only), all atomic, colours
 A row differs from production in one of the three, and is held against its forces and history.
 

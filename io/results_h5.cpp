@@ -35,7 +35,8 @@ void write_states(hid_t group, const BondTable& bonds, std::span<const Row> orde
 template <class Table>
 std::size_t bytes_of(const Table& table, bool (*wanted)(Role)) {
   std::size_t bytes = 0;
-  table.for_each_column([&]<class T>(const ColumnInfo& info, const Column<T>& column) {
+  table.for_each_column([&](const ColumnInfo& info, const auto& column) {
+    using T = ValueOf<decltype(column)>;
     // 8 kB: header, attributes, index of chunks; 1/256: check sums, last rows of chunks, index of many chunks
     if (wanted(info.role) && !column.empty()) bytes += table.size * sizeof(T) * 257 / 256 + 8192;
   });

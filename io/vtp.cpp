@@ -75,11 +75,11 @@ Array array_of(std::string_view name, std::span<const Row> rows, Value&& value) 
 }
 
 /// A column of the table. Row columns are scratch and never come here.
-template <class T>
-void add_column(std::vector<Array>& arrays, const ColumnInfo& info, const Column<T>& column,
+template <class AnyColumn>
+void add_column(std::vector<Array>& arrays, const ColumnInfo& info, const AnyColumn& column,
                 std::span<const Row> rows) {
   if (info.role == Role::scratch || column.empty()) return;
-  if constexpr (!std::is_same_v<T, Row>) {
+  if constexpr (!std::is_same_v<ValueOf<AnyColumn>, Row>) {
     arrays.push_back(array_of(info.name, rows, [&](Row row) { return column[row]; }));
   }
 }

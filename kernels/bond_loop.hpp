@@ -22,20 +22,27 @@ static_assert(bond_batch % width == 0 && LoadBlock::capacity % bond_batch == 0);
 
 using Column = BondColumn;
 
-/// Rows of the particles.
+/// Rows of the particles, all as far apart: a row is found once for the three.
 struct ParticleRows {
-  const std::span<const Vec3>&position, &velocity, &spin;
+  const Vec3 *position, *velocity, *spin;
+  std::size_t stride;
+
+  explicit ParticleRows(const BondPassIn& in)
+      : position(in.position.data()),
+        velocity(in.velocity.data()),
+        spin(in.spin.data()),
+        stride(in.position.stride()) {}
 };
 
 /// Rows are subtracted before they are turned into columns: four turns instead of six.
 template <Features features, class Bonds>
 [[gnu::always_inline]] inline Ends<Lanes> ends_of_batch(const ParticleRows& p, const Bonds& bonds,
                                                         std::size_t b) {
-  const auto lo = [&](const std::span<const Vec3>& rows, std::size_t k) -> const Four& {
-    return four(rows[bonds.lo(b + k)]);
+  const auto lo = [&](const Vec3* rows, std::size_t k) -> const Four& {
+    return four(rows[bonds.lo(b + k) * p.stride]);
   };
-  const auto hi = [&](const std::span<const Vec3>& rows, std::size_t k) -> const Four& {
-    return four(rows[bonds.hi(b + k)]);
+  const auto hi = [&](const Vec3* rows, std::size_t k) -> const Four& {
+    return four(rows[bonds.hi(b + k) * p.stride]);
   };
   Ends<Lanes> ends;
   ends.branch = columns_of([&](std::size_t k) { return hi(p.position, k) - lo(p.position, k); });
@@ -54,7 +61,7 @@ template <Features features, class Bonds>
 [[gnu::always_inline]] inline void prefetch_ends(const ParticleRows& p, const Bonds& bonds, const Scatter& to,
                                                  std::size_t b) {
   for (std::size_t k = b; k < b + width; ++k) {
-    const Index row = std::max(bonds.lo(k), bonds.hi(k));
+    const std::size_t row = std::max(bonds.lo(k), bonds.hi(k)) * p.stride;
     __builtin_prefetch(&p.position[row]);
     __builtin_prefetch(&p.velocity[row]);
     if constexpr (features.rotation) __builtin_prefetch(&p.spin[row]);

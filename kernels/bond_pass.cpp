@@ -51,15 +51,13 @@ private:
   }
 };
 
-ParticleRows rows_of(const BondPassIn& in) { return {in.position, in.velocity, in.spin}; }
-
 template <std::size_t k>
 [[gnu::flatten]] void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first,
                                 std::size_t last, const Scatter& to, BreakNotes* notes) {
   constexpr KernelKind kernel = kernel_list[k];
   const auto run = [&](const auto& bonds) {
     bond_loop<kernel.features, kernel.kind.ledger>(*static_cast<const LawOfKernel<k>*>(in.law), in.dt,
-                                                   rows_of(in), bonds, first, last, to, notes,
+                                                   ParticleRows(in), bonds, first, last, to, notes,
                                                    history.ledger.losses);
   };
   if constexpr (kernel.kind.precision == Precision::full)

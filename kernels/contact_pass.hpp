@@ -17,7 +17,7 @@ struct ContactPassIn {
   double shear_ratio = 0;  ///< k_s/k_n
   double friction = 0;     ///< mu_2
   bool rotation = true;
-  std::span<const Vec3> position, velocity, spin;
+  Strided<const Vec3> position, velocity, spin;
   std::span<const double> radius;
   std::span<const Index> row_lo, row_hi;
   std::span<const double> arm_offset, stiffness,

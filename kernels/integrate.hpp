@@ -5,6 +5,7 @@
 #include <span>
 
 #include "kernels/instruction_set.hpp"
+#include "kernels/strided.hpp"
 #include "kernels/vec3.hpp"
 
 namespace breccia {
@@ -22,8 +23,8 @@ inline Vec3 damped(const Vec3& force, const Vec3& velocity, double alpha) {
 }
 
 struct Motion {
-  std::span<Vec3> position, velocity, spin;  ///< spin is empty where nothing spins
-  std::span<Vec3> force, torque;             ///< read, then zeroed for the next step
+  Strided<Vec3> position, velocity, spin;  ///< spin is empty where nothing spins
+  Strided<Vec3> force, torque;             ///< read, then zeroed for the next step
   std::span<const double> mass, radius;
   double inertia_factor = 0.4;  ///< I = factor m r^2
   bool spins = true;            ///< false: the scene has no rotation, spins stay zero

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "kernels/strided.hpp"
 #include "kernels/vec3.hpp"
 
 namespace breccia {
@@ -36,7 +37,7 @@ struct Scatter {
   ScatterMode mode = ScatterMode::own;
   std::span<const Index> to_lo, to_hi;  ///< rows to add to
   std::span<const double> arm_offset;   ///< per bond: lo gets 1/2 + this of the moment, hi the rest
-  std::span<Vec3> force, torque;        ///< N, N m; torque is empty where nothing spins
+  Strided<Vec3> force, torque;          ///< N, N m, as far apart as each other; torque is empty where nothing spins
   std::span<BondLoad> bond_load;        ///< column: per bond
 };
 

@@ -15,13 +15,13 @@ inline void add_atomic(double& sum, double f) {
 }
 
 struct PlainAdd {
-  [[gnu::always_inline]] void operator()(std::span<Vec3> sums, Index row, const Four& f) const {
+  [[gnu::always_inline]] void operator()(const Strided<Vec3>& sums, Index row, const Four& f) const {
     four(sums[row]) += f;
   }
 };
 
 struct AtomicAdd {
-  void operator()(std::span<Vec3> sums, Index row, const Four& f) const {
+  void operator()(const Strided<Vec3>& sums, Index row, const Four& f) const {
     Vec3& sum = sums[row & ~shared_row];
     if (!(row & shared_row)) {
       four(sum) += f;
@@ -36,15 +36,16 @@ struct AtomicAdd {
 template <bool torques, class Add>
 [[gnu::always_inline]] inline void add_block(const Scatter& to, const LoadBlock& block, std::size_t first,
                                              std::size_t count, const Add& add) {
+  const Strided<Vec3> forces = to.force, moments{to.torque.data(), to.torque.size(), to.force.stride()};
   for (std::size_t k = 0; k < count; ++k) {
     const Index lo = to.to_lo[first + k], hi = to.to_hi[first + k];
     const Four &force = four(block.load[k].force), &moment = four(block.load[k].moment);
-    add(to.force, lo, force);
-    add(to.force, hi, -force);
+    add(forces, lo, force);
+    add(forces, hi, -force);
     if constexpr (torques) {
       const double offset = to.arm_offset[first + k];
-      add(to.torque, lo, (0.5 + offset) * moment);
-      add(to.torque, hi, (0.5 - offset) * moment);
+      add(moments, lo, (0.5 + offset) * moment);
+      add(moments, hi, (0.5 - offset) * moment);
     }
   }
 }

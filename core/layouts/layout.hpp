@@ -7,8 +7,9 @@
 
 namespace breccia {
 
-/// Rows of position, velocity, spin, force and torque: each its own column, or side by side in one record.
-enum class ParticleStorage { columns, records };
+/// records: position, velocity and spin of a particle side by side, its force and torque in a record of their own
+/// (production). columns: each a column
+enum class ParticleStorage { records, columns };
 
 /// private_sums, gather: as in production. shared_atomic: production's `atomic`. all_atomic: every add.
 /// colours: no two bonds of a colour share a particle; one colour after the other, with plain adds
@@ -16,7 +17,7 @@ enum class Summation { private_sums, gather, shared_atomic, all_atomic, colours 
 
 struct Layout {
   BondStorage bonds = BondStorage::columns;
-  ParticleStorage particles = ParticleStorage::columns;
+  ParticleStorage particles = ParticleStorage::records;
   Summation sums = Summation::private_sums;
 };
 
@@ -25,7 +26,7 @@ inline constexpr std::array<Layout, 9> layouts{{{},
                                                 {.bonds = BondStorage::records},
                                                 {.bonds = BondStorage::blocks_8},
                                                 {.bonds = BondStorage::blocks_16},
-                                                {.particles = ParticleStorage::records},
+                                                {.particles = ParticleStorage::columns},
                                                 {.sums = Summation::gather},
                                                 {.sums = Summation::shared_atomic},
                                                 {.sums = Summation::all_atomic},

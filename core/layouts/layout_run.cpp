@@ -8,15 +8,6 @@
 namespace breccia {
 namespace {
 
-/// Places in a particle's record, and their number.
-constexpr std::size_t position = 0, velocity = 1, spin = 2, force = 3, torque = 4, record = 5;
-
-std::vector<Index> scaled(std::span<const Index> rows) {
-  std::vector<Index> places;
-  for (const Index row : rows) places.push_back(row * static_cast<Index>(record));
-  return places;
-}
-
 ScatterKind kind_of(Summation sums) {
   switch (sums) {
     case Summation::gather:
@@ -57,17 +48,9 @@ LayoutRun::LayoutRun(const World& scene, const Layout& layout, int threads)
     for (const Index row : b.row_lo) to_lo_.push_back(row | shared_row);
     for (const Index row : b.row_hi) to_hi_.push_back(row | shared_row);
   }
-  if (layout.particles == ParticleStorage::records) {
-    const ScatterPlan& plan = world_.bond_plan;
-    records_.resize((p.size + plan.slot_count) * record);
-    for (std::size_t k = 0; k < p.size; ++k) {
-      records_[k * record + position] = p.position[k];
-      records_[k * record + velocity] = p.velocity[k];
-      records_[k * record + spin] = p.spin[k];
-    }
-    row_lo_ = scaled(b.row_lo), row_hi_ = scaled(b.row_hi);
-    to_lo_ = plan.to_lo.empty() ? row_lo_ : scaled(plan.to_lo);
-    to_hi_ = plan.to_hi.empty() ? row_hi_ : scaled(plan.to_hi);
+  if (layout.particles == ParticleStorage::columns) {
+    const std::size_t sums = p.size + world_.bond_plan.slot_count;
+    columns_ = {p.position.copy(), p.velocity.copy(), p.spin.copy(), Column<Vec3>(sums), Column<Vec3>(sums)};
   }
 }
 
@@ -86,12 +69,9 @@ void LayoutRun::pass(double dt) {
   Scatter to = scatter_view(plan, b.row_lo, b.row_hi, b.arm_offset, world_.particles);
   if (!to_lo_.empty()) to.to_lo = to_lo_, to.to_hi = to_hi_;
   if (layout_.sums == Summation::all_atomic) to.mode = ScatterMode::atomic;
-  if (!records_.empty()) {
-    // a row is its record's place: counted from a quantity's first row, it finds the others of that quantity
-    const std::span<Vec3> all(records_);
-    in.position = all.subspan(position), in.velocity = all.subspan(velocity), in.spin = all.subspan(spin);
-    in.row_lo = row_lo_, in.row_hi = row_hi_;
-    to.force = all.subspan(force), to.torque = all.subspan(torque);
+  if (in_columns()) {
+    in.position = columns_.position, in.velocity = columns_.velocity, in.spin = columns_.spin;
+    to.force = columns_.force, to.torque = columns_.torque;
   }
   if (layout_.sums == Summation::colours) {
     for (std::size_t c = 0; c + 1 < first_of_colour_.size(); ++c) {
@@ -104,21 +84,21 @@ void LayoutRun::pass(double dt) {
     return;
   }
   for_ranges(threads_, [&](int range) { pass_over(in, plan.first(range), plan.first(range + 1), to); });
-  if (records_.empty())
-    collect(plan, world_.particles, world_.share.own(), threads_);
+  if (in_columns())
+    collect_columns();
   else
-    collect_records();
+    collect(plan, world_.particles, world_.share.own(), threads_);
 }
 
-/// As `collect` does for columns.
-void LayoutRun::collect_records() {
+/// As `collect` does for records.
+void LayoutRun::collect_columns() {
   const ScatterPlan& plan = world_.bond_plan;
   for_rows(plan.shared.size(), threads_, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k)
       for (Index s = plan.first_slot[k]; s < plan.first_slot[k + 1]; ++s)
-        for (const std::size_t sum : {force, torque}) {
-          Vec3& own = records_[plan.slots[s] * record + sum];
-          records_[plan.shared[k] * record + sum] += own;
+        for (Column<Vec3>* const sum : {&columns_.force, &columns_.torque}) {
+          Vec3& own = (*sum)[plan.slots[s]];
+          (*sum)[plan.shared[k]] += own;
           own = {};
         }
   });
@@ -128,15 +108,16 @@ void LayoutRun::clear_sums() {
   ParticleTable& p = world_.particles;
   std::fill(p.force.begin(), p.force.end(), Vec3{});
   std::fill(p.torque.begin(), p.torque.end(), Vec3{});
-  for (std::size_t k = 0; k < records_.size(); k += record) records_[k + force] = records_[k + torque] = {};
+  std::fill(columns_.force.begin(), columns_.force.end(), Vec3{});
+  std::fill(columns_.torque.begin(), columns_.torque.end(), Vec3{});
 }
 
 PassResult LayoutRun::result() const {
   const ParticleTable& p = world_.particles;
   PassResult r;
   for (std::size_t k = 0; k < p.size; ++k) {
-    r.force.push_back(records_.empty() ? p.force[k] : records_[k * record + force]);
-    r.torque.push_back(records_.empty() ? p.torque[k] : records_[k * record + torque]);
+    r.force.push_back(in_columns() ? columns_.force[k] : p.force[k]);
+    r.torque.push_back(in_columns() ? columns_.torque[k] : p.torque[k]);
   }
   BondTable b = world_.bonds;
   if (stored_pass_) restore_history(stored_, layout_.bonds, b);

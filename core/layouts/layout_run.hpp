@@ -28,16 +28,19 @@ public:
 
 private:
   void pass_over(const BondPassIn& in, std::size_t first, std::size_t last, const Scatter& to);
-  void collect_records();
+  bool in_columns() const { return !columns_.position.empty(); }
+  void collect_columns();
 
   Layout layout_;
   int threads_;
   World world_;
   StoredBonds stored_;
   StoredPass stored_pass_ = nullptr;
-  std::vector<Vec3> records_;           ///< of the particles, and of the ranges' own sums
-  std::vector<Index> row_lo_, row_hi_;  ///< of the ends, in `records_`
-  std::vector<Index> to_lo_, to_hi_;    ///< rows to add to, where they are not production's
+  struct {
+    Column<Vec3> position, velocity, spin;
+    Column<Vec3> force, torque;  ///< of the particles, and the ranges' own
+  } columns_;                    ///< empty where particles lie in their records
+  std::vector<Index> to_lo_, to_hi_;  ///< rows to add to, where they are not production's
   std::vector<std::size_t> first_of_colour_;
   std::vector<Row> source_;  ///< of each coloured bond in the scene's table
   std::size_t scene_bonds_;

@@ -47,16 +47,16 @@ void shake(World& w) {
 /// and after it, which is what the scheme conserves (MODEL section 9). Makes the step.
 double advance_with_energy(World& w) {
   ParticleTable& p = w.particles;
-  Column<Vec3> place = p.position;
-  const Column<Vec3> velocity = p.velocity, spin = p.spin;
+  const Column<Vec3> place = p.position.copy(), velocity = p.velocity.copy(), spin = p.spin.copy();
   advance(w);
   double kinetic = 0.0;
   for (std::size_t k = 0; k < p.size; ++k)
     kinetic += 0.5 * (p.mass[k] * dot(velocity[k], p.velocity[k]) +
                       inertia(inertia_factor(w), p.mass[k], p.radius[k]) * dot(spin[k], p.spin[k]));
-  p.position.swap(place);
+  const Column<Vec3> moved = p.position.copy();
+  p.position.fill(place);
   const double stored = stored_energy(w);
-  p.position.swap(place);
+  p.position.fill(moved);
   return kinetic + stored;
 }
 
@@ -212,7 +212,7 @@ StabilityWorld make_stability_world(const StabilityScene& scene, StabilityPart p
     w.particles.position[k] += setup.offset;
     w.particles.reference_position[k] += setup.offset;
   }
-  w.search.position = w.particles.position;
+  w.search.position = w.particles.position.copy();
   if (part != StabilityPart::law) w.particles.free = w.first_top = w.particles.size;
   made.load = setup.load;
   made.blast = setup.blast;

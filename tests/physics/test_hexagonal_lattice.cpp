@@ -49,9 +49,9 @@ Stress stress_at(double e_x, double e_z, double E, double nu) {
     p.position[k] += u;
     p.velocity[k] = (1 / w.dt) * u;
   }
-  const Column<Vec3> deformed = p.position;
+  const Column<Vec3> deformed = p.position.copy();
   advance(w);
-  p.position = deformed;  // the forces belong to these
+  p.position.fill(deformed);  // the forces belong to these
   fill_stress_columns(w);
   std::size_t middle = 0;
   for (std::size_t k = 0; k < p.size; ++k)

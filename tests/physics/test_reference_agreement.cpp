@@ -63,7 +63,7 @@ std::vector<int> groups(const World& w) {
   return g;
 }
 
-double difference(std::span<const Vec3> a, const auto& b, std::size_t n) {
+double difference(Strided<const Vec3> a, const auto& b, std::size_t n) {
   double most = 0, worst = 0;
   for (std::size_t k = 0; k < n; ++k) {
     most = std::max(most, norm(b(k)));

@@ -131,7 +131,8 @@ Scene noise(std::size_t particle_count, std::size_t bond_count) {
   std::normal_distribution<double> normal;
   scene.particles.resize(particle_count, {});
   scene.bonds.resize(bond_count, {}, 8);
-  const auto fill = [&]<class T>(const ColumnInfo&, Column<T>& column) {
+  const auto fill = [&](const ColumnInfo&, auto& column) {
+    using T = ValueOf<decltype(column)>;
     for (T& value : column) {
       if constexpr (std::is_same_v<T, Vec3>) {
         value = {normal(random), normal(random), normal(random)};

@@ -74,16 +74,17 @@ Sums sums_of(Network& n, ScatterKind kind, int ranges, std::size_t batch = 8) {
   ParticleTable& p = n.particles;
   const bool torques = !p.spin.empty();
   ScatterPlan plan = plan_scatter(kind, ranges, batch, n.lo, n.hi, n.gid_lo, n.gid_hi, n.arm_offset, p.size);
+  const auto first = [&](RecordField& sum) { return Strided<Vec3>(sum).first(p.size); };
   Sums sums;
   for (int repeat = 0; repeat < 2; ++repeat) {  // twice: the ranges' own sums must be left empty
-    std::fill(p.force.begin(), p.force.begin() + std::ptrdiff_t(p.size), Vec3{});
-    if (torques) std::fill(p.torque.begin(), p.torque.begin() + std::ptrdiff_t(p.size), Vec3{});
+    std::ranges::fill(first(p.force), Vec3{});
+    if (torques) std::ranges::fill(first(p.torque), Vec3{});
     const Scatter to = scatter_view(plan, n.lo, n.hi, n.arm_offset, p);
     for_ranges(ranges, [&](int range) { add_range(n, to, plan.first(range), plan.first(range + 1)); });
     collect(plan, p, {0, p.size}, ranges);
     const Sums before = sums;
-    sums.force.assign(p.force.begin(), p.force.begin() + std::ptrdiff_t(p.size));
-    if (torques) sums.torque.assign(p.torque.begin(), p.torque.begin() + std::ptrdiff_t(p.size));
+    sums.force.assign(first(p.force).begin(), first(p.force).end());
+    if (torques) sums.torque.assign(first(p.torque).begin(), first(p.torque).end());
     if (repeat == 1 && kind != ScatterKind::atomic) CHECK(sums == before);
   }
   return sums;

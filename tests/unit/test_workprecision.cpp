@@ -235,7 +235,7 @@ TEST_CASE(
     "work precision: a perturbation is small, its own for each number, and the reference moves with it") {
   Assembly a;
   a.particles.resize(3, Features{});
-  a.particles.position = {{0.1, -0.2, 0.3}, {0, 0, 0}, {1, 1, 1}};
+  a.particles.position.fill(std::vector<Vec3>{{0.1, -0.2, 0.3}, {0, 0, 0}, {1, 1, 1}});
   const Assembly one = shaken(a, 1, 1e-12), two = shaken(a, 2, 1e-12);
   CHECK(one.particles.position[0].x != a.particles.position[0].x);
   CHECK(one.particles.position[0].x != two.particles.position[0].x);
