@@ -22,11 +22,12 @@ struct LayerForces {
 std::array<Vec3, 2> forces_on_layers(const ParticleTable& p, const Share& share, std::size_t first_top) {
   std::vector<LayerForces> blocks;
   const auto held = [&](std::size_t row) { return std::max(row, p.free); };
-  return sum_blocks(share, 1, blocks, held, [&](std::size_t row) {
-           LayerForces f;
-           f.force[row >= first_top] = p.force[row];
-           return f;
-         }).force;
+  const auto force_on = [&](std::size_t row) {
+    LayerForces f;
+    f.force[row >= first_top] = p.force[row];
+    return f;
+  };
+  return sum_blocks(share, 1, blocks, held, each<LayerForces>(force_on)).force;
 }
 
 }  // namespace

@@ -37,9 +37,8 @@ Braked braked_motion(const World& w, std::size_t row) {
 }
 
 /// Work over the two half steps around the present forces, J, and the kinetic energy.
-struct StepWork {
-  double kinetic = 0, held_this = 0, held_next = 0, motion_this = 0, motion_next = 0, spin_this = 0,
-         spin_next = 0;
+struct StepWork : MotionWork {
+  double held_this = 0, held_next = 0;  ///< by platens
   StepWork& operator+=(const StepWork& o) {
     kinetic += o.kinetic, held_this += o.held_this, held_next += o.held_next;
     motion_this += o.motion_this, motion_next += o.motion_next;
@@ -58,17 +57,16 @@ void add_platen(const World& w, std::size_t row, const Vec3& after, StepWork& s)
   s.held_next = 0.5 * w.dt * dot(reaction, after);
 }
 
-StepWork work_on(const World& w, std::size_t row) {
+/// On a row that a platen holds.
+StepWork work_on_held(const World& w, std::size_t row) {
   const ParticleTable& p = w.particles;
   const double half = 0.5 * w.dt, m = p.mass[row];
   StepWork s;
   Vec3 v = p.velocity[row];
   Braked motion = braked_motion(w, row);
   s.kinetic = 0.5 * m * dot(v, motion.after);
-  if (row >= p.free) {
-    add_platen(w, row, motion.after, s);
-    v.z = motion.after.z = 0.0;
-  }
+  add_platen(w, row, motion.after, s);
+  v.z = motion.after.z = 0.0;
   s.motion_this = half * motion.share * dot(v, v), s.motion_next = half * motion.share * dot(v, motion.after);
   if (p.spin.empty() || !w.options.features.rotation) return s;
   const Vec3& spin = p.spin[row];
@@ -97,8 +95,6 @@ double normal_damage(const World& w) {
       w.law);
 }
 
-std::size_t blocks_of(std::size_t rows) { return (rows + LoadBlock::capacity - 1) / LoadBlock::capacity; }
-
 struct SkinWork {
   double over_this = 0, over_next = 0;  ///< J
   SkinWork& operator+=(const SkinWork& o) {
@@ -107,15 +103,10 @@ struct SkinWork {
   }
 };
 
-struct Losses {
-  BondLosses<double> bonds;
-  ContactLosses contacts;
-};
-
 /// Added up in the order of ranks: other numbers of ranks differ in the last digits.
 Losses losses_of_all(const World& w) {
   const Ranks& ranks = w.share.ranks;
-  const Losses mine{total_bond_losses(w.ledger), total_contact_losses(w.ledger)};
+  const Losses mine = losses_of(w.ledger);
   if (ranks.alone()) return mine;
   std::vector<Losses> all(static_cast<std::size_t>(ranks.count));
   gather_all(ranks, &mine, std::vector<std::size_t>(all.size(), sizeof(Losses)), all.data());
@@ -140,7 +131,7 @@ void begin_ledger(World& w, const StepWork& work) {
 EnergyLedger open_ledger(const World& w) {
   EnergyLedger ledger;
   ledger.enabled = true;
-  ledger.bonds.resize(blocks_of(w.bonds.padded));
+  ledger.bonds.resize(ledger_blocks(w.bonds.padded));
   ledger.own_bonds = ledger.bonds.size();
   return ledger;
 }
@@ -148,16 +139,22 @@ EnergyLedger open_ledger(const World& w) {
 void renew_contacts(EnergyLedger& ledger, const ContactTable& contacts) {
   if (!ledger.enabled) return;
   ledger.earlier_contacts = total_contact_losses(ledger);
-  ledger.contacts.assign(blocks_of(contacts.padded), {});
-  ledger.own_contacts = blocks_of(contacts.size);
+  ledger.contacts.assign(ledger_blocks(contacts.padded), {});
+  ledger.own_contacts = ledger_blocks(contacts.size);
 }
 
 void book_motion(World& w) {
   EnergyLedger& ledger = w.ledger;
   if (!ledger.enabled) return;
   std::vector<StepWork> blocks;
-  const StepWork work = sum_particles(w.share, w.options.threads, blocks,
-                                      [&](std::size_t row) { return work_on(w, row); });
+  const Motion motion = motion_of(w);
+  const StepWork work =
+      sum_particle_ranges(w.share, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
+        const std::size_t free = std::clamp(w.particles.free, first, last);
+        StepWork sum{w.work_of_free(motion, first, free, w.dt, w.options.global_damping)};
+        for (std::size_t row = free; row < last; ++row) sum += work_on_held(w, row);
+        return sum;
+      });
   ledger.kinetic = work.kinetic;
   if (w.step == 0) return begin_ledger(w, work);
   ledger.platens.add(work.held_this, work.held_next);
@@ -195,6 +192,10 @@ ContactLosses total_contact_losses(const EnergyLedger& ledger) {
   ContactLosses sum = ledger.earlier_contacts;
   for (const ContactLosses& loss : std::span(ledger.contacts).first(ledger.own_contacts)) add(sum, loss);
   return sum;
+}
+
+Losses losses_of(const EnergyLedger& ledger) {
+  return {total_bond_losses(ledger), total_contact_losses(ledger)};
 }
 
 EnergyBalance balance(const World& w) {

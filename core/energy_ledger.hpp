@@ -66,7 +66,19 @@ struct EnergyLedger {
   double worst_loss = 0;     ///< J, by which a channel that can only grow has been below zero
 };
 
+/// Sums over a number of bonds or contacts: one for each block of the loop.
+inline std::size_t ledger_blocks(std::size_t rows) {
+  return (rows + LoadBlock::capacity - 1) / LoadBlock::capacity;
+}
+
+/// What bonds and contacts have lost, J.
+struct Losses {
+  BondLosses<double> bonds;
+  ContactLosses contacts;
+};
+
 /// Of this rank.
+Losses losses_of(const EnergyLedger& ledger);
 BondLosses<double> total_bond_losses(const EnergyLedger& ledger);
 ContactLosses total_contact_losses(const EnergyLedger& ledger);
 void add(BondLosses<double>& sum, const BondLosses<double>& loss);

@@ -45,9 +45,9 @@ Gauge lateral_gauge(const Assembly& a) {
 }
 
 double read_gauge(const Gauge& gauge, Strided<const Vec3> position, std::span<const Vec3> reference,
-                  const Share& share) {
+                  const Share& share, int threads) {
   std::vector<double> blocks;
-  return sum_listed(share, gauge.rows, 1, blocks, [&](std::size_t k) {
+  return sum_listed(share, gauge.rows, threads, blocks, [&](std::size_t k) {
     return dot(gauge.weights[k], position[gauge.rows[k]] - reference[gauge.rows[k]]);
   });
 }

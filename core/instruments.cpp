@@ -4,7 +4,7 @@ namespace breccia {
 namespace {
 
 double gauge_now(const World& w, const Gauge& g) {
-  return read_gauge(g, w.particles.position, w.particles.reference_position, w.share);
+  return read_gauge(g, w.particles.position, w.particles.reference_position, w.share, w.options.threads);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // What reads a test: gauges on the specimen and the platens, from where everything stood when loading began.
 #pragma once
-#include <array>
 
 #include "core/gauges.hpp"
 #include "core/load_test.hpp"

@@ -148,15 +148,6 @@ void gather_columns(const Ranks& ranks, const Table& mine, Rows rows, Table* who
 bool is_state(Role role) { return role == Role::state; }
 bool is_remembered(Role role) { return role == Role::history || role == Role::ledger; }
 
-struct Losses {
-  BondLosses<double> bonds;
-  ContactLosses contacts;
-};
-
-Losses losses_of(const EnergyLedger& ledger) {
-  return {total_bond_losses(ledger), total_contact_losses(ledger)};
-}
-
 /// The books of all ranks in those of the root; which block of bonds lost what is no longer known.
 void gather_ledger(const Ranks& ranks, const EnergyLedger& mine, EnergyLedger* whole) {
   if (!mine.enabled) return;
@@ -210,7 +201,7 @@ World cut(World all, const Ranks& ranks) {
   if (w.ledger.enabled) {
     const Losses before = losses_of(whole->ledger);
     w.ledger.bonds.assign(std::max<std::size_t>(1, w.bonds.padded / LoadBlock::capacity), {});
-    w.ledger.own_bonds = std::max<std::size_t>(1, (w.bonds.size + LoadBlock::capacity - 1) / LoadBlock::capacity);
+    w.ledger.own_bonds = std::max<std::size_t>(1, ledger_blocks(w.bonds.size));
     w.ledger.earlier_contacts = {};
     if (ranks.is_root()) {
       w.ledger.bonds.front() = before.bonds;

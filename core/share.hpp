@@ -49,11 +49,12 @@ Share share_alone(std::size_t rows);
 /// Of one of several ranks: parts of equal work, neighbours not yet met.
 Share share_of_rank(const World& whole, const Ranks& ranks);
 
-/// Sum of term(item) over the items of all ranks. T needs += and is copied as it lies.
+/// Sum over the items of all ranks, block by block. T needs += and is copied as it lies.
 /// @param first_at  item with which the given row begins; rises with the row
 /// @param blocks    storage that is kept between calls
-template <class T, class First, class Term>
-T sum_blocks(const Share& s, int threads, std::vector<T>& blocks, const First& first_at, const Term& term) {
+/// @param over      over(first, last): the sum over these items, in their order
+template <class T, class First, class Over>
+T sum_blocks(const Share& s, int threads, std::vector<T>& blocks, const First& first_at, const Over& over) {
   const auto block_at = [&](std::size_t row) { return (row + s.block - 1) / s.block; };
   const Rows mine = s.own();
   const std::size_t begin = block_at(mine.first), end = block_at(mine.last);
@@ -62,10 +63,7 @@ T sum_blocks(const Share& s, int threads, std::vector<T>& blocks, const First& f
   for_ranges(parts, [&](int part) {
     const std::size_t last_block = begin + range_first(end - begin, part + 1, parts);
     for (std::size_t b = begin + range_first(end - begin, part, parts); b < last_block; ++b) {
-      T sum{};
-      const std::size_t last = first_at(std::min((b + 1) * s.block, s.rows));
-      for (std::size_t item = first_at(b * s.block); item < last; ++item) sum += term(item);
-      blocks[b] = sum;
+      blocks[b] = over(first_at(b * s.block), first_at(std::min((b + 1) * s.block, s.rows)));
     }
   });
   if (!s.ranks.alone()) {
@@ -81,10 +79,26 @@ T sum_blocks(const Share& s, int threads, std::vector<T>& blocks, const First& f
   return total;
 }
 
+/// Sums term(item) over a range of items.
+template <class T, class Term>
+auto each(const Term& term) {
+  return [&term](std::size_t first, std::size_t last) {
+    T sum{};
+    for (std::size_t item = first; item < last; ++item) sum += term(item);
+    return sum;
+  };
+}
+
 /// Over all rows of particles.
 template <class T, class Term>
 T sum_particles(const Share& s, int threads, std::vector<T>& blocks, const Term& term) {
-  return sum_blocks(s, threads, blocks, [](std::size_t row) { return row; }, term);
+  return sum_blocks(s, threads, blocks, [](std::size_t row) { return row; }, each<T>(term));
+}
+
+/// The same, range by range: over(first, last).
+template <class T, class Over>
+T sum_particle_ranges(const Share& s, int threads, std::vector<T>& blocks, const Over& over) {
+  return sum_blocks(s, threads, blocks, [](std::size_t row) { return row; }, over);
 }
 
 /// Over a list of rows, rising; term is called with places in the list.
@@ -94,7 +108,7 @@ T sum_listed(const Share& s, std::span<const Row> list, int threads, std::vector
   const auto first_at = [&](std::size_t row) {
     return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), row) - list.begin());
   };
-  return sum_blocks(s, threads, blocks, first_at, term);
+  return sum_blocks(s, threads, blocks, first_at, each<T>(term));
 }
 
 /// Calls work with the places in a list of rising rows that are owned.
@@ -119,7 +133,7 @@ T sum_pairs(const Share& s, const Table& t, int threads, std::vector<T>& blocks,
     }
     return low;
   };
-  return sum_blocks(s, threads, blocks, first_at, term);
+  return sum_blocks(s, threads, blocks, first_at, each<T>(term));
 }
 
 /// The part of a whole world that one rank runs; the root keeps the whole one beside it.

@@ -93,9 +93,7 @@ void move_platens(World& w) {
 void integrate(World& w) {
   const Lap lap(w.phases, Phase::integrate);
   ParticleTable& p = w.particles;
-  const Motion motion{p.position, p.velocity,        p.spin,
-                      p.force,    p.torque,          p.mass,
-                      p.radius,   inertia_factor(w), w.options.features.rotation};
+  const Motion motion = motion_of(w);
   const GlobalDamping& damping = w.options.global_damping;
   const Rows free = w.share.own(0, p.free), lower = w.share.own(p.free, w.first_top),
              upper = w.share.own(w.first_top, p.size);

@@ -88,6 +88,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
                    std::span(w.bonds.gid_hi).first(w.bonds.size), w.bonds.arm_offset, w.particles.size);
   w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set, kind);
   w.integrate_free = integrate_free_for(options.instruction_set);
+  w.work_of_free = work_of_free_for(options.instruction_set);
   if (options.ledger) {
     for (Column<double>* column : {&w.bonds.spring_force, &w.bonds.viscous_force, &w.bonds.shear_factor})
       column->assign(w.bonds.padded, 0.0);
@@ -109,6 +110,13 @@ BondPassIn bond_pass_in(const World& w) {
           b.rest_length,
           constant_columns(b),
           w.narrow_bonds.constants()};
+}
+
+Motion motion_of(World& w) {
+  ParticleTable& p = w.particles;
+  return {p.position, p.velocity, p.spin,   p.force,
+          p.torque,   p.mass,     p.radius, inertia_factor(w),
+          w.options.features.rotation};
 }
 
 BondPassHistory bond_pass_history(World& w) {

@@ -74,6 +74,7 @@ struct World {
   MassScaling mass_scaling;
   BondPass bond_pass = nullptr;
   IntegrateFree integrate_free = nullptr;
+  WorkOfFree work_of_free = nullptr;
   Phases phases;
 };
 
@@ -84,6 +85,9 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
 /// What the bond pass reads and what it changes.
 BondPassIn bond_pass_in(const World& world);
 BondPassHistory bond_pass_history(World& world);
+
+/// Views of all rows of the particles, for integration.
+Motion motion_of(World& world);
 
 /// Brings the table of bonds up to date, before anyone looks at it; in full precision it always is.
 void settle(World& world);

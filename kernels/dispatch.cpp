@@ -10,14 +10,17 @@ namespace breccia {
 namespace x86_64 {
 extern const std::array<BondPass, kernel_list.size()> passes;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 }  // namespace x86_64
 namespace x86_64_v3 {
 extern const std::array<BondPass, kernel_list.size()> passes;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 }  // namespace x86_64_v3
 namespace x86_64_v4 {
 extern const std::array<BondPass, kernel_list.size()> passes;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 }  // namespace x86_64_v4
 
 std::string_view name_of(InstructionSet set) {
@@ -41,6 +44,10 @@ InstructionSet best_instruction_set() {
 IntegrateFree integrate_free_for(InstructionSet set) {
   return built_for<IntegrateFree>(set, x86_64::integrate_free, x86_64_v3::integrate_free,
                                   x86_64_v4::integrate_free);
+}
+
+WorkOfFree work_of_free_for(InstructionSet set) {
+  return built_for<WorkOfFree>(set, x86_64::work_of_free, x86_64_v3::work_of_free, x86_64_v4::work_of_free);
 }
 
 Features built_features(const BondLaw& law, const Features& asked, const LoopKind& kind) {
