@@ -121,9 +121,10 @@ void for_own_entries(const Share& s, std::span<const Row> list, const Work& work
   for (std::size_t k = at(mine.first); k < at(mine.last); ++k) work(k);
 }
 
-/// Over the owned bonds or contacts of a table: sorted by the lower row of their ends.
-template <class T, class Table, class Term>
-T sum_pairs(const Share& s, const Table& t, int threads, std::vector<T>& blocks, const Term& term) {
+/// Over the owned bonds or contacts of a table, sorted by the lower row of their ends, range by range: over(first,
+/// last).
+template <class T, class Table, class Over>
+T sum_pair_ranges(const Share& s, const Table& t, int threads, std::vector<T>& blocks, const Over& over) {
   const auto first_at = [&](std::size_t row) {
     std::size_t low = 0, high = t.size;
     while (low < high) {
@@ -133,7 +134,13 @@ T sum_pairs(const Share& s, const Table& t, int threads, std::vector<T>& blocks,
     }
     return low;
   };
-  return sum_blocks(s, threads, blocks, first_at, each<T>(term));
+  return sum_blocks(s, threads, blocks, first_at, over);
+}
+
+/// The same, one by one: term(row).
+template <class T, class Table, class Term>
+T sum_pairs(const Share& s, const Table& t, int threads, std::vector<T>& blocks, const Term& term) {
+  return sum_pair_ranges(s, t, threads, blocks, each<T>(term));
 }
 
 /// The part of a whole world that one rank runs; the root keeps the whole one beside it.

@@ -89,6 +89,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set, kind);
   w.integrate_free = integrate_free_for(options.instruction_set);
   w.work_of_free = work_of_free_for(options.instruction_set);
+  w.undamaged_energy = undamaged_energy_for(options.instruction_set);
   if (options.ledger) {
     for (Column<double>* column : {&w.bonds.spring_force, &w.bonds.viscous_force, &w.bonds.shear_factor})
       column->assign(w.bonds.padded, 0.0);
@@ -110,6 +111,25 @@ BondPassIn bond_pass_in(const World& w) {
           b.rest_length,
           constant_columns(b),
           w.narrow_bonds.constants()};
+}
+
+BondEnergyIn bond_energy_in(const World& w, double back) {
+  const ParticleTable& p = w.particles;
+  const BondTable& b = w.bonds;
+  return {.position = p.position,
+          .velocity = p.velocity,
+          .row_lo = b.row_lo,
+          .row_hi = b.row_hi,
+          .rest_length = b.rest_length,
+          .stiffness = b.stiffness,
+          .shear_x = b.shear_x,
+          .shear_y = b.shear_y,
+          .shear_z = b.shear_z,
+          .plastic_stretch = b.plastic_stretch,
+          .damage_normal = b.damage_normal,
+          .damage_shear = b.damage_shear,
+          .back = back,
+          .shear_ratio = w.shear_ratio};
 }
 
 Motion motion_of(World& w) {
@@ -165,11 +185,17 @@ double stored_energy(const World& w, double back) {
   };
   const BondTable& b = w.bonds;
   const bool coupled = w.features.criterion == Criterion::coupled;
+  const BondEnergyIn in = bond_energy_in(w, back);
   const double sum = std::visit(
       [&](const auto& law) {
-        return sum_pairs(w.share, b, w.options.threads, blocks, [&](std::size_t k) {
-          return stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k),
-                               distance_of(b.row_lo[k], b.row_hi[k]), coupled);
+        return sum_pair_ranges(w.share, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
+          double energy = w.undamaged_energy(in, first, last);
+          if (b.damage_normal.empty()) return energy;
+          for (std::size_t k = first; k < last; ++k)
+            if (b.damage_normal[k] > 0.0 || b.damage_shear[k] > 0.0)
+              energy += stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k),
+                                      distance_of(b.row_lo[k], b.row_hi[k]), coupled);
+          return energy;
         });
       },
       w.law);

@@ -17,6 +17,7 @@
 #include "kernels/bond_pass.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/material.hpp"
+#include "kernels/undamaged_energy.hpp"
 
 namespace breccia {
 
@@ -75,6 +76,7 @@ struct World {
   BondPass bond_pass = nullptr;
   IntegrateFree integrate_free = nullptr;
   WorkOfFree work_of_free = nullptr;
+  UndamagedEnergy undamaged_energy = nullptr;
   Phases phases;
 };
 
@@ -85,6 +87,9 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
 /// What the bond pass reads and what it changes.
 BondPassIn bond_pass_in(const World& world);
 BondPassHistory bond_pass_history(World& world);
+
+/// What the energy of undamaged bonds reads; places as of `back` seconds ago.
+BondEnergyIn bond_energy_in(const World& world, double back);
 
 /// Views of all rows of the particles, for integration.
 Motion motion_of(World& world);

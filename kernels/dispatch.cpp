@@ -4,6 +4,7 @@
 #include "kernels/bond_pass.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/kernel_list.hpp"
+#include "kernels/undamaged_energy.hpp"
 
 namespace breccia {
 
@@ -11,16 +12,19 @@ namespace x86_64 {
 extern const std::array<BondPass, kernel_list.size()> passes;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
 }  // namespace x86_64
 namespace x86_64_v3 {
 extern const std::array<BondPass, kernel_list.size()> passes;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
 }  // namespace x86_64_v3
 namespace x86_64_v4 {
 extern const std::array<BondPass, kernel_list.size()> passes;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
 }  // namespace x86_64_v4
 
 std::string_view name_of(InstructionSet set) {
@@ -48,6 +52,11 @@ IntegrateFree integrate_free_for(InstructionSet set) {
 
 WorkOfFree work_of_free_for(InstructionSet set) {
   return built_for<WorkOfFree>(set, x86_64::work_of_free, x86_64_v3::work_of_free, x86_64_v4::work_of_free);
+}
+
+UndamagedEnergy undamaged_energy_for(InstructionSet set) {
+  return built_for<UndamagedEnergy>(set, x86_64::undamaged_energy, x86_64_v3::undamaged_energy,
+                                    x86_64_v4::undamaged_energy);
 }
 
 Features built_features(const BondLaw& law, const Features& asked, const LoopKind& kind) {
