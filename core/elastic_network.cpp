@@ -19,14 +19,14 @@ void put(Eigen::VectorXd& v, std::size_t at, const Vec3& f) {
   v[k] = f.x, v[k + 1] = f.y, v[k + 2] = f.z;
 }
 
-/// What a spring pulls its lower end with.
-Vec3 pull(const ElasticNetwork& net, std::size_t k, const Eigen::VectorXd& u) {
+SpringLoad load_of(const ElasticNetwork& net, std::size_t k, const Eigen::VectorXd& u) {
   const auto& [lo, hi, k_n, k_s] = net.springs[k];
   const auto& [normal, arm_ratio] = net.branches[k];
   const std::size_t at_lo = 6 * std::size_t{lo}, at_hi = 6 * std::size_t{hi};
   const Vec3 turn = arm_ratio * (net.radius[lo] * three(u, at_lo + 3) + net.radius[hi] * three(u, at_hi + 3));
   const Vec3 relative = three(u, at_hi) - three(u, at_lo) - cross(turn, normal);
-  return (k_n - k_s) * dot(relative, normal) * normal + k_s * relative;
+  const Vec3 pull = (k_n - k_s) * dot(relative, normal) * normal + k_s * relative;
+  return {pull, arm_ratio * cross(normal, pull)};
 }
 
 }  // namespace
@@ -71,20 +71,20 @@ void set_constants(ElasticNetwork& net, const std::function<SpringConstants(std:
   }
 }
 
-void apply_stiffness(const ElasticNetwork& net, const Eigen::VectorXd& u, std::vector<Vec3>& pulls,
+void apply_stiffness(const ElasticNetwork& net, const Eigen::VectorXd& u, std::vector<SpringLoad>& loads,
                      Eigen::VectorXd& forces) {
-  pulls.resize(net.springs.size());
+  loads.resize(net.springs.size());
   for_rows(net.springs.size(), net.threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) pulls[k] = pull(net, k, u);
+    for (std::size_t k = first; k < last; ++k) loads[k] = load_of(net, k, u);
   });
   for_rows(net.particles, net.threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
       Vec3 force, moment;
       for (std::uint32_t e = net.first_entry[p]; e < net.first_entry[p + 1]; ++e) {
-        const std::size_t k = net.entries[e] >> 1;
+        const SpringLoad& load = loads[net.entries[e] >> 1];
         // K u is what must be applied: minus the spring's pull on the end
-        force += net.entries[e] & 1u ? pulls[k] : -pulls[k];
-        moment += net.branches[k].arm_ratio * cross(net.branches[k].normal, pulls[k]);
+        force += (net.entries[e] & 1u ? 1.0 : -1.0) * load.pull;
+        moment += load.moment;
       }
       put(forces, 6 * p, force);
       put(forces, 6 * p + 3, -net.radius[p] * moment);
@@ -158,8 +158,8 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
   // there
   const auto free = (inverse_diagonal.array() > 0.0).cast<double>().matrix().eval();
   Eigen::VectorXd force(n), residual(n), direction(n), image(n);
-  std::vector<Vec3> pulls;
-  apply_stiffness(net, u, pulls, force);
+  std::vector<SpringLoad> loads;
+  apply_stiffness(net, u, loads, force);
   residual = -force.cwiseProduct(free);
   Eigen::VectorXd z = residual.cwiseProduct(inverse_diagonal);
   direction = z;
@@ -168,7 +168,7 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
   ElasticResponse answer;
   const long limit = 20000;
   while (residual.cwiseAbs().maxCoeff() > 1e-7 * start && answer.iterations < limit) {
-    apply_stiffness(net, direction, pulls, image);
+    apply_stiffness(net, direction, loads, image);
     const double step = rho / direction.dot(image);
     u += step * direction;
     residual -= step * image.cwiseProduct(free);
@@ -181,7 +181,7 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
   if (answer.iterations == limit)
     fail<BadInput>("bonds.alpha: the elastic probe did not converge; give alpha a number or \"affine\"");
 
-  apply_stiffness(net, u, pulls, force);
+  apply_stiffness(net, u, loads, force);
   double reaction = 0.0;
   for (std::size_t row = a.particles.free; row < net.particles; ++row)
     reaction += (row < a.first_top ? 0.5 : -0.5) * force[static_cast<Eigen::Index>(6 * row + 2)];

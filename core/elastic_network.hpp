@@ -44,11 +44,17 @@ ElasticNetwork elastic_network(const ParticleTable& particles, const BondTable& 
 /// The same network with other stiffnesses.
 void set_constants(ElasticNetwork& network, const std::function<SpringConstants(std::size_t)>& constants);
 
+/// What a spring passes on: N, what it pulls its lower end with, and that times its branch's normal and arm over
+/// radius, on both ends alike. One line of the cache.
+struct alignas(64) SpringLoad {
+  Vec3 pull, moment;
+};
+
 /// forces = K displacements; both of 6 * particles. Each spring is stretched once; particles then add up what
 /// theirs pass on, in the same order for any number of threads.
-/// @param pulls  N, of each spring: room that is kept between calls
+/// @param loads  of each spring: room that is kept between calls
 void apply_stiffness(const ElasticNetwork& network, const Eigen::VectorXd& displacements,
-                     std::vector<Vec3>& pulls, Eigen::VectorXd& forces);
+                     std::vector<SpringLoad>& loads, Eigen::VectorXd& forces);
 
 /// What the assembly does when its layers are pushed together: the answer of a static linear solve.
 struct ElasticResponse {

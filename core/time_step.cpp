@@ -67,7 +67,7 @@ public:
     set_constants(network_, [&](std::size_t k) { return step_constants(scene_, k, dt); });
     const auto apply = [&](const Eigen::VectorXd& x, Eigen::VectorXd& image) {
       in_ = (1.0 + scene_.global_damping) * by_mass_.cwiseProduct(x);
-      apply_stiffness(network_, in_, pulls_, image);
+      apply_stiffness(network_, in_, loads_, image);
       image = by_mass_.cwiseProduct(image);
     };
     return largest_eigenvalue(by_mass_.size(), apply, effort, scene_.threads);
@@ -78,7 +78,7 @@ private:
   const StepScene& scene_;
   ElasticNetwork network_;
   Eigen::VectorXd by_mass_, in_;
-  std::vector<Vec3> pulls_;
+  std::vector<SpringLoad> loads_;
 };
 
 /// Norms of one spring's part of M^-1 K at both ends.

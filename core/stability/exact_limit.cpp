@@ -25,10 +25,10 @@ Eigen::MatrixXd scaled_matrix(const World& w, const std::function<SpringConstant
   }
   Eigen::MatrixXd matrix(n, n);
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(n), image(n);
-  std::vector<Vec3> pulls;
+  std::vector<SpringLoad> loads;
   for (Eigen::Index k = 0; k < n; ++k) {
     unit[k] = by_mass[k];
-    apply_stiffness(net, unit, pulls, image);
+    apply_stiffness(net, unit, loads, image);
     matrix.col(k) = by_mass.cwiseProduct(image);
     unit[k] = 0.0;
   }
