@@ -54,8 +54,8 @@ std::vector<std::size_t> uncounted(const ContactTable& c, const Pairs& counted) 
   return rows;
 }
 
-/// Room that an estimate leaves, its error from below taken off.
-double room_below_limit(double number) { return 1.0 - number / 0.98; }
+/// What an estimate may be, which comes from below.
+constexpr double largest_number = 0.98;
 
 }  // namespace
 
@@ -92,10 +92,11 @@ void keep_step(World& w) {
   constexpr int most_looks = 3;  // one finds the step, the next confirms it, or mends its aim
   for (int look_number = 0; look_number < most_looks; ++look_number) {
     ++watch.looks;
-    const StepLook look = look_at_step(scene, w.dt);
-    watch.room = room_below_limit(look.number);
+    const bool first = look_number == 0;
+    const StepLook look = look_at_step(scene, w.dt, first ? largest_number : 0.0);
+    watch.room = 1.0 - look.number / largest_number;
     // the look at a lowered step says how well the one before has aimed
-    const bool well_aimed = look_number == 0 || w.dt <= 1.005 * w.options.safety * look.critical;
+    const bool well_aimed = first || w.dt <= 1.005 * w.options.safety * look.critical;
     if (watch.room >= 0.0 && well_aimed) return;
     w.critical_dt = std::min(w.critical_dt, look.critical);
     w.dt = std::min(w.dt, w.options.safety * w.critical_dt);

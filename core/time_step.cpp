@@ -152,17 +152,15 @@ LanczosEffort effort_of_run(std::size_t particles) {
 
 }  // namespace
 
-double stability_number(const StepScene& s, double dt) {
-  return ScaledNetwork(s).number(dt, effort_of_run(s.particles.size)).value;
-}
-
-StepLook look_at_step(const StepScene& s, double dt) {
+StepLook look_at_step(const StepScene& s, double dt, double enough) {
   ScaledNetwork network(s);
   const LanczosEffort effort = effort_of_run(s.particles.size);
+  const LargestEigenvalue number = network.number(dt, effort);
+  if (number.value <= enough) return {number.value, dt};
   LanczosEffort crude = effort;
   crude.applications = crude.early;
   constexpr double shorter = 0.95;
-  const LargestEigenvalue number = network.number(dt, effort), other = network.number(shorter * dt, crude);
+  const LargestEigenvalue other = network.number(shorter * dt, crude);
   const double slope = std::clamp(std::log(other.early / number.early) / std::log(shorter), 0.5, 2.0);
   return {number.value, dt * std::pow((1.0 - number_error) / number.value, 1.0 / slope)};
 }

@@ -181,10 +181,13 @@ TEST_CASE("time step: a packing's estimate lies within 2.5 % below the converged
       const double exact = exact_time_step(scene_of(w));
       CHECK(w.critical_dt < exact);
       CHECK(w.critical_dt > 0.975 * exact);
-      CHECK(stability_number(scene_of(w), exact) == doctest::Approx(1).epsilon(0.02));
+      CHECK(look_at_step(scene_of(w), exact).number == doctest::Approx(1).epsilon(0.02));
       for (const double beyond : {1.02, 1.15}) {
         const StepLook look = look_at_step(scene_of(w), beyond * exact);
-        CHECK(look.number == stability_number(scene_of(w), beyond * exact));
+        CHECK(look_at_step(scene_of(w), beyond * exact, 1.0).critical == look.critical);  // more than enough
+        const StepLook enough = look_at_step(scene_of(w), beyond * exact, 1.5);
+        CHECK(enough.number == look.number);
+        CHECK(enough.critical == beyond * exact);
         CHECK(look.critical < exact * 1.003);
         CHECK(look.critical > 0.97 * exact);
       }
@@ -274,13 +277,13 @@ TEST_CASE("time step: what contacts add to the stability number stays below its 
   WorldOptions o = scene::options(p);
   const Assembly a = assemble(scene::small_packing(200), scene::small_cylinder(), {}, o.features, 1);
   World w = make_world(a, scene::material_of(p), scene::factor(p), o);
-  const double without = stability_number(scene_of(w), w.dt);
+  const double without = look_at_step(scene_of(w), w.dt).number;
   w.search.skin *= 5;  // many at once
   renew_contacts(w.search, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, o.features, false, 1);
   REQUIRE(w.contacts.size > 20);
   std::vector<std::size_t> all(w.contacts.size);
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const double with = stability_number(scene_of(w), w.dt),
+  const double with = look_at_step(scene_of(w), w.dt).number,
                bound = stability_number_bound(scene_of(w), all, w.dt);
   CHECK(with >= without * (1 - 1e-9));
   CHECK(with <= (without + bound) * 1.02);
