@@ -10,34 +10,39 @@
 namespace breccia {
 namespace {
 
-Vec3 three(const Eigen::VectorXd& v, std::size_t at) {
+template <class Real>
+Vec<Real> three(const VectorOf<Real>& v, std::size_t at) {
   const auto k = static_cast<Eigen::Index>(at);
   return {v[k], v[k + 1], v[k + 2]};
 }
-void put(Eigen::VectorXd& v, std::size_t at, const Vec3& f) {
+template <class Real>
+void put(VectorOf<Real>& v, std::size_t at, const Vec<Real>& f) {
   const auto k = static_cast<Eigen::Index>(at);
   v[k] = f.x, v[k + 1] = f.y, v[k + 2] = f.z;
 }
 
-SpringLoad load_of(const ElasticNetwork& net, std::size_t k, const Eigen::VectorXd& u) {
+template <class Real>
+SpringLoad<Real> load_of(const Network<Real>& net, std::size_t k, const VectorOf<Real>& u) {
   const auto& [lo, hi, k_n, k_s] = net.springs[k];
   const auto& [normal, arm_ratio] = net.branches[k];
   const std::size_t at_lo = 6 * std::size_t{lo}, at_hi = 6 * std::size_t{hi};
-  const Vec3 turn = arm_ratio * (net.radius[lo] * three(u, at_lo + 3) + net.radius[hi] * three(u, at_hi + 3));
-  const Vec3 relative = three(u, at_hi) - three(u, at_lo) - cross(turn, normal);
-  const Vec3 pull = (k_n - k_s) * dot(relative, normal) * normal + k_s * relative;
+  const Vec<Real> turn = arm_ratio * (net.radius[lo] * three<Real>(u, at_lo + 3) + net.radius[hi] * three<Real>(u, at_hi + 3));
+  const Vec<Real> relative = three<Real>(u, at_hi) - three<Real>(u, at_lo) - cross(turn, normal);
+  const Vec<Real> pull = (k_n - k_s) * dot(relative, normal) * normal + k_s * relative;
   return {pull, arm_ratio * cross(normal, pull)};
 }
 
 }  // namespace
 
-ElasticNetwork elastic_network(const ParticleTable& p, const BondTable& b, const ContactTable& c,
-                               bool rotation, int threads,
-                               const std::function<SpringConstants(std::size_t)>& constants) {
-  ElasticNetwork net;
+template <class Real>
+Network<Real> elastic_network(const ParticleTable& p, const BondTable& b, const ContactTable& c,
+                              bool rotation, int threads,
+                              const std::function<SpringConstants(std::size_t)>& constants) {
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  Network<Real> net;
   net.particles = p.size;
   net.threads = threads;
-  net.radius.assign(p.radius.begin(), p.radius.end());
+  for (const double radius : p.radius) net.radius.push_back(real(radius));
   net.springs.resize(b.size + c.size);
   net.branches.resize(net.springs.size());
   net.first_entry.assign(net.particles + 1, 0);
@@ -48,8 +53,8 @@ ElasticNetwork elastic_network(const ParticleTable& p, const BondTable& b, const
     const double distance = norm(l), length = bond ? b.rest_length[k] : distance;
     const auto [normal, shear] = constants(k);
     const double arm_ratio = rotation ? length / (p.radius[lo] + p.radius[hi]) : 0.0;
-    net.springs[k] = {lo, hi, normal, shear};
-    net.branches[k] = {(1.0 / distance) * l, arm_ratio};
+    net.springs[k] = {lo, hi, real(normal), real(shear)};
+    net.branches[k] = {{real(l.x / distance), real(l.y / distance), real(l.z / distance)}, real(arm_ratio)};
     ++net.first_entry[lo + 1];
     ++net.first_entry[hi + 1];
   }
@@ -63,34 +68,45 @@ ElasticNetwork elastic_network(const ParticleTable& p, const BondTable& b, const
   return net;
 }
 
-void set_constants(ElasticNetwork& net, const std::function<SpringConstants(std::size_t)>& constants) {
+template <class Real>
+void set_constants(Network<Real>& net, const std::function<SpringConstants(std::size_t)>& constants) {
   for (std::size_t k = 0; k < net.springs.size(); ++k) {
     const auto [normal, shear] = constants(k);
-    net.springs[k].k_n = normal;
-    net.springs[k].k_s = shear;
+    net.springs[k].k_n = static_cast<Real>(normal);
+    net.springs[k].k_s = static_cast<Real>(shear);
   }
 }
 
-void apply_stiffness(const ElasticNetwork& net, const Eigen::VectorXd& u, std::vector<SpringLoad>& loads,
-                     Eigen::VectorXd& forces) {
+template <class Real>
+void apply_stiffness(const Network<Real>& net, const VectorOf<Real>& u, std::vector<SpringLoad<Real>>& loads,
+                     VectorOf<Real>& forces) {
   loads.resize(net.springs.size());
   for_rows(net.springs.size(), net.threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) loads[k] = load_of(net, k, u);
   });
   for_rows(net.particles, net.threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
-      Vec3 force, moment;
+      Vec<Real> force, moment;
       for (std::uint32_t e = net.first_entry[p]; e < net.first_entry[p + 1]; ++e) {
-        const SpringLoad& load = loads[net.entries[e] >> 1];
+        const SpringLoad<Real>& load = loads[net.entries[e] >> 1];
         // K u is what must be applied: minus the spring's pull on the end
-        force += (net.entries[e] & 1u ? 1.0 : -1.0) * load.pull;
+        force += (net.entries[e] & 1u ? Real(1) : Real(-1)) * load.pull;
         moment += load.moment;
       }
-      put(forces, 6 * p, force);
-      put(forces, 6 * p + 3, -net.radius[p] * moment);
+      put<Real>(forces, 6 * p, force);
+      put<Real>(forces, 6 * p + 3, -net.radius[p] * moment);
     }
   });
 }
+
+#define BRECCIA_NETWORK_OF(Real)                                                                             \
+  template Network<Real> elastic_network(const ParticleTable&, const BondTable&, const ContactTable&, bool,  \
+                                         int, const std::function<SpringConstants(std::size_t)>&);           \
+  template void set_constants(Network<Real>&, const std::function<SpringConstants(std::size_t)>&);           \
+  template void apply_stiffness(const Network<Real>&, const VectorOf<Real>&, std::vector<SpringLoad<Real>>&, \
+                                VectorOf<Real>&);
+BRECCIA_NETWORK_OF(double)
+BRECCIA_NETWORK_OF(float)
 
 namespace {
 
@@ -158,7 +174,7 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
   // there
   const auto free = (inverse_diagonal.array() > 0.0).cast<double>().matrix().eval();
   Eigen::VectorXd force(n), residual(n), direction(n), image(n);
-  std::vector<SpringLoad> loads;
+  std::vector<SpringLoad<double>> loads;
   apply_stiffness(net, u, loads, force);
   residual = -force.cwiseProduct(free);
   Eigen::VectorXd z = residual.cwiseProduct(inverse_diagonal);
@@ -188,7 +204,7 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
   const auto strain = [&](const Gauge& g) {
     double sum = 0.0;
     for (std::size_t k = 0; k < g.rows.size(); ++k)
-      sum += dot(g.weights[k], three(u, 6 * std::size_t{g.rows[k]}));
+      sum += dot(g.weights[k], three<double>(u, 6 * std::size_t{g.rows[k]}));
     return sum;
   };
   const double axial = strain(axial_gauge(a)), radial = strain(lateral_gauge(a));

@@ -13,14 +13,15 @@ namespace breccia {
 namespace {
 
 /// Normal deviates (Box and Muller): their direction is uniform on the sphere.
-Eigen::VectorXd random_direction(Eigen::Index size) {
+template <class Real>
+Eigen::VectorX<Real> random_direction(Eigen::Index size) {
   Random random(1);
-  Eigen::VectorXd x(size);
+  Eigen::VectorX<Real> x(size);
   for (Eigen::Index k = 0; k < size; k += 2) {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform01(random)));
     const double angle = 2.0 * std::numbers::pi * uniform01(random);
-    x[k] = radius * std::cos(angle);
-    if (k + 1 < size) x[k + 1] = radius * std::sin(angle);
+    x[k] = static_cast<Real>(radius * std::cos(angle));
+    if (k + 1 < size) x[k + 1] = static_cast<Real>(radius * std::sin(angle));
   }
   return x;
 }
@@ -42,14 +43,16 @@ struct Tridiagonal {
 
 }  // namespace
 
+template <class Real>
 LargestEigenvalue largest_eigenvalue(
-    Eigen::Index size, const std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)>& apply,
+    Eigen::Index size, const std::function<void(const Eigen::VectorX<Real>&, Eigen::VectorX<Real>&)>& apply,
     const LanczosEffort& effort, int threads) {
+  using Vector = Eigen::VectorX<Real>;
   const auto rows = static_cast<std::size_t>(size);
   std::vector<double> blocks;
-  const auto product = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const auto product = [&](const Vector& a, const Vector& b) {
     return sum_rows<double>(rows, threads, blocks, [&](std::size_t k) {
-      return a[static_cast<Eigen::Index>(k)] * b[static_cast<Eigen::Index>(k)];
+      return static_cast<double>(a[static_cast<Eigen::Index>(k)]) * b[static_cast<Eigen::Index>(k)];
     });
   };
   const auto each = [&](auto&& change) {
@@ -57,8 +60,8 @@ LargestEigenvalue largest_eigenvalue(
       for (std::size_t k = first; k < last; ++k) change(static_cast<Eigen::Index>(k));
     });
   };
-  Eigen::VectorXd now = random_direction(size), before = Eigen::VectorXd::Zero(size), image(size);
-  now /= std::sqrt(product(now, now));
+  Vector now = random_direction<Real>(size), before = Vector::Zero(size), image(size);
+  now /= static_cast<Real>(std::sqrt(product(now, now)));
   Tridiagonal t;
   LargestEigenvalue found;
   double beta = 0.0, scale = 0.0;
@@ -66,11 +69,13 @@ LargestEigenvalue largest_eigenvalue(
     apply(now, image);
     ++found.applications;
     const double alpha = product(now, image);
-    each([&](Eigen::Index k) { image[k] -= alpha * now[k] + beta * before[k]; });
+    const auto a = static_cast<Real>(alpha), b = static_cast<Real>(beta);
+    each([&](Eigen::Index k) { image[k] -= a * now[k] + b * before[k]; });
     beta = std::sqrt(product(image, image));
     t.diagonal.push_back(alpha);
     scale = std::max(scale, alpha);
-    const bool complete = beta <= 1e-12 * scale;  // all that the start vector holds has been seen
+    // all that the start vector holds has been seen
+    const bool complete = beta <= (std::is_same_v<Real, float> ? 1e-6 : 1e-12) * scale;
     const bool last = complete || found.applications >= effort.applications;
     const bool early = found.applications == effort.early || (last && found.applications < effort.early);
     const bool look = effort.tolerance > 0.0 && found.applications % 8 == 0;
@@ -81,12 +86,18 @@ LargestEigenvalue largest_eigenvalue(
       if (last || (look && std::abs(beta * end) <= effort.tolerance * found.value)) return found;
     }
     t.beside.push_back(beta);
+    const auto next = static_cast<Real>(beta);
     each([&](Eigen::Index k) {
       before[k] = now[k];
-      now[k] = image[k] / beta;
+      now[k] = image[k] / next;
     });
   }
 }
+
+template LargestEigenvalue largest_eigenvalue<double>(
+    Eigen::Index, const std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)>&, const LanczosEffort&, int);
+template LargestEigenvalue largest_eigenvalue<float>(
+    Eigen::Index, const std::function<void(const Eigen::VectorXf&, Eigen::VectorXf&)>&, const LanczosEffort&, int);
 
 double largest_eigenvalue(const Eigen::MatrixXd& matrix) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);

@@ -19,10 +19,13 @@ struct LanczosEffort {
 
 /// Lanczos iteration from a random vector, three vectors in all: nothing is orthogonalised again, which makes
 /// copies of eigenvalues but moves none (Paige 1976).
+/// @tparam Real  of the vectors, double or float; sums are doubles always
 /// @param size   rows; of those that `apply` leaves at zero nothing is seen
 /// @param apply  image = A x, A symmetric, no eigenvalue below zero
+template <class Real>
 LargestEigenvalue largest_eigenvalue(
-    Eigen::Index size, const std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& image)>& apply,
+    Eigen::Index size,
+    const std::function<void(const Eigen::VectorX<Real>& x, Eigen::VectorX<Real>& image)>& apply,
     const LanczosEffort& effort, int threads);
 
 /// Of a small symmetric matrix, all of it given.
@@ -30,8 +33,8 @@ double largest_eigenvalue(const Eigen::MatrixXd& matrix);
 
 /// Applications after which the value is short by more than the fraction `error` with a probability below
 /// `chance`, whatever the spectrum is, of a random vector: 1.648 sqrt(n) exp(-sqrt(error) (2 k - 1))
-/// (Kuczynski and Wozniakowski, SIAM J. Matrix Anal. Appl. 13 (1992) 1094). A mode of one light particle, or of one cluster apart from
-/// the others, is no exception.
+/// (Kuczynski and Wozniakowski, SIAM J. Matrix Anal. Appl. 13 (1992) 1094). A mode of one light particle, or of
+/// one cluster apart from the others, is no exception.
 int applications_for(Eigen::Index size, double error, double chance);
 
 }  // namespace breccia

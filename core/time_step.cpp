@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "core/elastic_network.hpp"
@@ -51,34 +52,41 @@ SpringConstants step_constants(const StepScene& s, std::size_t k, double dt) {
 }
 
 /// M^-1/2 (dt^2 K/4 + dt C/2) M^-1/2 (1 + alpha) of a scene. One network takes the constants of all steps in
-/// turn: it is the largest thing that a run ever holds beside its tables.
+/// turn: it is the largest thing that a run ever holds beside its tables. Masses are counted in their mean, so that
+/// floats hold them.
+template <class Real>
 class ScaledNetwork {
 public:
   explicit ScaledNetwork(const StepScene& scene)
       : scene_(scene),
-        network_(elastic_network(scene.particles, scene.bonds, scene.contacts, scene.freedom.rotation,
-                                 scene.threads,
-                                 [](std::size_t) {
-                                   return SpringConstants{0.0, 0.0};
-                                 })),
-        by_mass_(roots_of_masses(scene)) {}
+        mean_mass_(std::accumulate(scene.particles.mass.begin(), scene.particles.mass.end(), 0.0) /
+                   static_cast<double>(scene.particles.size)),
+        network_(elastic_network<Real>(scene.particles, scene.bonds, scene.contacts, scene.freedom.rotation,
+                                       scene.threads,
+                                       [](std::size_t) {
+                                         return SpringConstants{0.0, 0.0};
+                                       })),
+        by_mass_((std::sqrt(mean_mass_) * roots_of_masses(scene)).template cast<Real>()) {}
 
   LargestEigenvalue number(double dt, const LanczosEffort& effort) {
-    set_constants(network_, [&](std::size_t k) { return step_constants(scene_, k, dt); });
-    const auto apply = [&](const Eigen::VectorXd& x, Eigen::VectorXd& image) {
-      in_ = (1.0 + scene_.global_damping) * by_mass_.cwiseProduct(x);
-      apply_stiffness(network_, in_, loads_, image);
+    set_constants<Real>(network_, [&](std::size_t k) {
+      const auto [normal, shear] = step_constants(scene_, k, dt);
+      return SpringConstants{normal / mean_mass_, shear / mean_mass_};
+    });
+    const auto apply = [&](const VectorOf<Real>& x, VectorOf<Real>& image) {
+      in_ = static_cast<Real>(1.0 + scene_.global_damping) * by_mass_.cwiseProduct(x);
+      apply_stiffness<Real>(network_, in_, loads_, image);
       image = by_mass_.cwiseProduct(image);
     };
-    return largest_eigenvalue(by_mass_.size(), apply, effort, scene_.threads);
+    return largest_eigenvalue<Real>(by_mass_.size(), apply, effort, scene_.threads);
   }
-  Eigen::Index size() const { return by_mass_.size(); }
 
 private:
   const StepScene& scene_;
-  ElasticNetwork network_;
-  Eigen::VectorXd by_mass_, in_;
-  std::vector<SpringLoad> loads_;
+  double mean_mass_;  ///< kg
+  Network<Real> network_;
+  VectorOf<Real> by_mass_, in_;
+  std::vector<SpringLoad<Real>> loads_;
 };
 
 /// Norms of one spring's part of M^-1 K at both ends.
@@ -122,10 +130,11 @@ struct SearchEffort {
 /// ln of the number over ln dt is a line of slope 1 (damping) to 2 (stiffness), or less where a scheme holds
 /// dashpots back: secants in these logarithms. Two crude values find the neighbourhood and the slope; their
 /// start vector is always the same, so that differences mean something long before the values do.
+template <class Real>
 double step_at_limit(const StepScene& s, const SearchEffort& effort) {
   const double start = first_guess(s);
   if (!std::isfinite(start)) return infinite;
-  ScaledNetwork network(s);
+  ScaledNetwork<Real> network(s);
   LanczosEffort crude = effort.lanczos;
   crude.applications = crude.early;
   double x = std::log(start), slope = 1.5;
@@ -153,7 +162,7 @@ LanczosEffort effort_of_run(std::size_t particles) {
 }  // namespace
 
 StepLook look_at_step(const StepScene& s, double dt, double enough) {
-  ScaledNetwork network(s);
+  ScaledNetwork<float> network(s);
   const LanczosEffort effort = effort_of_run(s.particles.size);
   const LargestEigenvalue number = network.number(dt, effort);
   if (number.value <= enough) return {number.value, dt};
@@ -180,11 +189,11 @@ double stability_number_bound(const StepScene& s, std::span<const std::size_t> c
 }
 
 double critical_time_step(const StepScene& s) {
-  return 0.98 * step_at_limit(s, {effort_of_run(s.particles.size), 0.1});
+  return 0.98 * step_at_limit<float>(s, {effort_of_run(s.particles.size), 0.1});
 }
 
 double exact_time_step(const StepScene& s) {
-  return step_at_limit(s, {{.applications = 4000, .tolerance = 1e-8}, 1e-9});
+  return step_at_limit<double>(s, {{.applications = 4000, .tolerance = 1e-8}, 1e-9});
 }
 
 std::vector<double> own_time_steps(const StepScene& s) {

@@ -25,7 +25,7 @@ Eigen::MatrixXd scaled_matrix(const World& w, const std::function<SpringConstant
   }
   Eigen::MatrixXd matrix(n, n);
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(n), image(n);
-  std::vector<SpringLoad> loads;
+  std::vector<SpringLoad<double>> loads;
   for (Eigen::Index k = 0; k < n; ++k) {
     unit[k] = by_mass[k];
     apply_stiffness(net, unit, loads, image);

@@ -296,12 +296,18 @@ TEST_CASE(
   Eigen::VectorXd d = Eigen::VectorXd::LinSpaced(n, 0, 1);
   d[1234] = 1.05;
   const auto apply = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = d.cwiseProduct(x); };
-  CHECK(largest_eigenvalue(n, apply, {.applications = 2000, .tolerance = 1e-7}, 1).value ==
+  CHECK(largest_eigenvalue<double>(n, apply, {.applications = 2000, .tolerance = 1e-7}, 1).value ==
         doctest::Approx(1.05).epsilon(1e-9));
   const LargestEigenvalue few =
-      largest_eigenvalue(n, apply, {.applications = applications_for(n, 0.02, 1e-3)}, 1);
+      largest_eigenvalue<double>(n, apply, {.applications = applications_for(n, 0.02, 1e-3)}, 1);
   CHECK(few.value > 0.98 * 1.05);
   CHECK(few.value < 1.05 * (1 + 1e-12));
   CHECK(few.early < few.value);
   CHECK(few.applications == applications_for(n, 0.02, 1e-3));
+  // in floats, as estimates in a run are
+  const auto apply_floats = [&](const Eigen::VectorXf& x, Eigen::VectorXf& y) { y = d.cast<float>().cwiseProduct(x); };
+  const LargestEigenvalue rough =
+      largest_eigenvalue<float>(n, apply_floats, {.applications = applications_for(n, 0.02, 1e-3)}, 1);
+  CHECK(rough.value == doctest::Approx(few.value).epsilon(1e-5));
+  CHECK(rough.early == doctest::Approx(few.early).epsilon(1e-5));
 }
