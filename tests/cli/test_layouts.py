@@ -16,9 +16,9 @@ COLUMNS = ("spheres bonds threads bond_storage particle_storage sums ns_per_bond
            "bonds_per_s time_over_production limit_ns_per_bond limited_by fraction_of_limit difference colours "
            "passes_per_block".split())
 WORDS = {"bond_storage", "particle_storage", "sums", "limited_by"}
-LAYOUTS = [("columns", "columns", "private"), ("records", "columns", "private"), ("blocks of 8", "columns", "private"),
-           ("blocks of 16", "columns", "private"), ("columns", "records", "private"), ("columns", "columns", "gather"),
-           ("columns", "columns", "atomic"), ("columns", "columns", "all atomic"), ("columns", "columns", "colours")]
+LAYOUTS = [("columns", "records", "private"), ("records", "records", "private"), ("blocks of 8", "records", "private"),
+           ("blocks of 16", "records", "private"), ("columns", "columns", "private"), ("columns", "records", "gather"),
+           ("columns", "records", "atomic"), ("columns", "records", "all atomic"), ("columns", "records", "colours")]
 
 
 class Layouts(ProgramTest):
