@@ -9,7 +9,6 @@ COLOURS = (SHEAR, STORED, DISSIPATED, TENSION, KINETIC, INK, "#56B4E9")  # of th
 MARKERS = "osD^vP*"
 NEEDED = {"spheres", "bonds", "threads", "bond_storage", "particle_storage", "sums", "ns_per_bond_median",
           "ns_per_bond_least", "ns_per_bond_most", "limit_ns_per_bond"}
-PRODUCTION = ("columns", "columns", "private")
 
 
 class Layouts:
@@ -32,14 +31,14 @@ def layout_of(run):
     return run["bond_storage"], run["particle_storage"], run["sums"]
 
 
-def label_of(layout):
-    """What tells a layout from production."""
+def label_of(layout, production):
+    """What tells a layout from production, the first of a study."""
     bonds, particles, sums = layout
-    if layout == PRODUCTION:
-        return "production: columns, private sums"
-    if bonds != PRODUCTION[0]:
+    if layout == production:
+        return f"production: bonds in {bonds},\nparticles in {particles}, {sums} sums"
+    if bonds != production[0]:
         return f"bonds in {bonds}"
-    return f"particles in {particles}" if particles != PRODUCTION[1] else f"sums: {sums}"
+    return f"particles in {particles}" if particles != production[1] else f"sums: {sums}"
 
 
 def draw_layouts(folder, path):
@@ -50,7 +49,7 @@ def draw_layouts(folder, path):
                               sharex=True)
     for panel, threads in zip(axes[0], shown):
         draw_threads(panel, study, threads)
-    axes[0][0].set_yticks(range(len(study.layouts)), [label_of(layout) for layout in study.layouts])
+    axes[0][0].set_yticks(range(len(study.layouts)), [label_of(layout, study.layouts[0]) for layout in study.layouts])
     axes[0][0].set_ylim(len(study.layouts) - 0.45, -0.55)
     axes[0][0].set_xlim(0, None)
     handles = [Line2D([], [], color=colour, marker=marker, linestyle="none", label=f"{spheres:,} spheres")
