@@ -54,6 +54,8 @@ void record_cracks(CrackRecord& record, const BondLaw& law, bool coupled, double
     if (notes.count == 0) continue;
     const std::size_t noted = std::min(notes.count, notes.room.size());
     record.missed += notes.count - noted;
+    // of several ranks the bonds that need nothing from elsewhere come first
+    std::ranges::sort(notes.room.first(noted), {}, &FreshBreak::bond);
     for (const FreshBreak& was : notes.room.first(noted)) {
       if (was.bond >= b.size) continue;
       record.cracks.push_back(

@@ -25,6 +25,7 @@ double crossing_time(const World& w, const Assembly& a) {
 
 /// Broken bonds and energies at the end of a row.
 CurveRow state_row(World& w) {
+  receive_motion(w);
   const Lap lap(w.phases, Phase::measure);
   settle(w);
   CurveRow row;

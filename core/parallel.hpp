@@ -2,6 +2,7 @@
 // them. Which thread runs which range does not matter to any result.
 #pragma once
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -43,6 +44,16 @@ void for_ranges(int ranges, const Work& work) {
     work(0);
   else
     for_tasks(ranges, work, tbb::simple_partitioner{});
+}
+
+/// Sorts in the order of `<`, on all threads that TBB has.
+template <class Iterator>
+void sort_on_threads(Iterator first, Iterator last) {
+#if defined(__SANITIZE_THREAD__)
+  std::sort(first, last);  // the sanitizer does not see TBB's forks and joins
+#else
+  tbb::parallel_sort(first, last);
+#endif
 }
 
 /// First row of a range when `rows` are cut into `ranges` parts that are multiples of `batch` but for the

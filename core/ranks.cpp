@@ -14,6 +14,9 @@ int number_of(const char* variable) {
   return text ? std::atoi(text) : 0;
 }
 
+/// Of the one exchange that has begun.
+std::vector<MPI_Request> on_their_way;
+
 struct Layout {
   std::vector<int> bytes, first;
 };
@@ -137,17 +140,23 @@ void tell_wishes(const Ranks& ranks, std::vector<Neighbour>& neighbours) {
   std::erase_if(neighbours, [](const Neighbour& n) { return n.send.empty() && n.receive.empty(); });
 }
 
-void exchange(std::vector<Neighbour>& neighbours) {
-  std::vector<MPI_Request> requests(2 * neighbours.size(), MPI_REQUEST_NULL);
+void begin_exchange(std::vector<Neighbour>& neighbours) {
+  on_their_way.assign(2 * neighbours.size(), MPI_REQUEST_NULL);
   constexpr int tag = 4;
   for (std::size_t k = 0; k < neighbours.size(); ++k) {
     Neighbour& n = neighbours[k];
     MPI_Irecv(n.incoming.data(), static_cast<int>(n.incoming.size()), MPI_DOUBLE, n.rank, tag, MPI_COMM_WORLD,
-              &requests[2 * k]);
+              &on_their_way[2 * k]);
     MPI_Isend(n.outgoing.data(), static_cast<int>(n.outgoing.size()), MPI_DOUBLE, n.rank, tag, MPI_COMM_WORLD,
-              &requests[2 * k + 1]);
+              &on_their_way[2 * k + 1]);
   }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+bool finish_exchange() {
+  if (on_their_way.empty()) return false;
+  MPI_Waitall(static_cast<int>(on_their_way.size()), on_their_way.data(), MPI_STATUSES_IGNORE);
+  on_their_way.clear();
+  return true;
 }
 
 }  // namespace breccia

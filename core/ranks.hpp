@@ -60,7 +60,10 @@ struct Neighbour {
 /// @param neighbours  with `receive`, for every rank but this one
 void tell_wishes(const Ranks& ranks, std::vector<Neighbour>& neighbours);
 
-/// Sends every `outgoing`, and waits for every `incoming`.
-void exchange(std::vector<Neighbour>& neighbours);
+/// Sends every `outgoing` and asks for every `incoming`; neither may be touched until the exchange is finished. One at
+/// a time.
+void begin_exchange(std::vector<Neighbour>& neighbours);
+/// Waits until all of it has gone and come. @returns false when none was begun
+bool finish_exchange();
 
 }  // namespace breccia

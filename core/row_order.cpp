@@ -1,32 +1,38 @@
 #include "core/row_order.hpp"
 
-#include <algorithm>
-#include <numeric>
-#include <tuple>
+#include <compare>
+
+#include "core/parallel.hpp"
 
 namespace breccia {
 namespace {
 
-std::vector<Row> first_rows(std::size_t size) {
+/// What a row is sorted by, beside its number: millions of them are sorted where they lie.
+struct Key {
+  Gid lo, hi;
+  Row row;
+  auto operator<=>(const Key&) const = default;
+};
+
+template <class KeyOf>
+std::vector<Row> sorted(std::size_t size, const KeyOf& key_of) {
+  std::vector<Key> keys(size);
+  for (std::size_t k = 0; k < size; ++k) keys[k] = key_of(static_cast<Row>(k));
+  sort_on_threads(keys.begin(), keys.end());
   std::vector<Row> rows(size);
-  std::iota(rows.begin(), rows.end(), Row{0});
+  for (std::size_t k = 0; k < size; ++k) rows[k] = keys[k].row;
   return rows;
 }
 
 template <class Pairs>
 std::vector<Row> by_ends(const Pairs& pairs) {
-  std::vector<Row> rows = first_rows(pairs.size);
-  const auto ends = [&](Row row) { return std::tuple(pairs.gid_lo[row], pairs.gid_hi[row], row); };
-  std::sort(rows.begin(), rows.end(), [&](Row a, Row b) { return ends(a) < ends(b); });
-  return rows;
+  return sorted(pairs.size, [&](Row row) { return Key{pairs.gid_lo[row], pairs.gid_hi[row], row}; });
 }
 
 }  // namespace
 
 std::vector<Row> rows_by_gid(const ParticleTable& particles) {
-  std::vector<Row> rows = first_rows(particles.size);
-  std::sort(rows.begin(), rows.end(), [&](Row a, Row b) { return particles.gid[a] < particles.gid[b]; });
-  return rows;
+  return sorted(particles.size, [&](Row row) { return Key{particles.gid[row], 0, row}; });
 }
 
 std::vector<Row> rows_by_ends(const BondTable& bonds) { return by_ends(bonds); }

@@ -102,6 +102,16 @@ void add_foreign_ends(const Share& s, const Table& t, std::vector<std::vector<Ro
       if (const int owner = s.owner(row); owner != s.ranks.rank) wanted[static_cast<std::size_t>(owner)].push_back(row);
 }
 
+/// Blocks of bonds of which one at least ends in another rank's part.
+std::vector<char> reaching_blocks(const Share& s, const BondTable& b) {
+  const Rows mine = s.own();
+  const auto is_mine = [&](Row row) { return row >= mine.first && row < mine.last; };
+  std::vector<char> reaching((b.padded + LoadBlock::capacity - 1) / LoadBlock::capacity, 0);
+  for (std::size_t k = 0; k < b.padded; ++k)
+    if (b.stiffness[k] > 0.0 && !(is_mine(b.row_lo[k]) && is_mine(b.row_hi[k]))) reaching[k / LoadBlock::capacity] = 1;
+  return reaching;
+}
+
 std::size_t numbers_of_row(const ParticleTable& p) { return p.spin.empty() ? 6 : 9; }
 
 void meet_neighbours(World& w) {
@@ -197,6 +207,7 @@ World cut(World all, const Ranks& ranks) {
   w.bonds = cut_bonds(whole->bonds, bonds);
   if (w.options.precision == Precision::mixed) w.narrow_bonds = narrow_bonds(w.bonds);
   plan_bonds(w);
+  w.share.reaching = reaching_blocks(w.share, w.bonds);
   w.cracks = make_crack_record(w.cracks.enabled, w.options.threads, w.bonds.padded);
   if (w.ledger.enabled) {
     const Losses before = losses_of(whole->ledger);
@@ -224,6 +235,7 @@ World cut(World all, const Ranks& ranks) {
 
 World& bring_together(World& w) {
   if (w.share.ranks.alone()) return w;
+  receive_motion(w);
   settle(w);
   World* whole = w.share.whole.get();
   const Ranks& ranks = w.share.ranks;
@@ -313,12 +325,14 @@ void hand_out_contacts(World& w) {
   if (lowered) set_dashpots(w);
   plan_contacts(w);
   meet_neighbours(w);
+  send_motion(w);  // those met for the first time have not moved here yet
 }
 
-void exchange_motion(World& w) {
+void send_motion(World& w) {
   std::vector<Neighbour>& neighbours = w.share.neighbours;
   if (neighbours.empty()) return;
-  ParticleTable& p = w.particles;
+  const Lap lap(w.phases, Phase::halo);
+  const ParticleTable& p = w.particles;
   const bool spins = !p.spin.empty();
   for (Neighbour& n : neighbours) {
     double* to = n.outgoing.data();
@@ -327,8 +341,16 @@ void exchange_motion(World& w) {
       if (spins) *to++ = p.spin[row].x, *to++ = p.spin[row].y, *to++ = p.spin[row].z;
     }
   }
-  exchange(neighbours);
-  for (Neighbour& n : neighbours) {
+  begin_exchange(neighbours);
+}
+
+void receive_motion(World& w) {
+  if (w.share.neighbours.empty()) return;
+  const Lap lap(w.phases, Phase::halo);
+  if (!finish_exchange()) return;
+  ParticleTable& p = w.particles;
+  const bool spins = !p.spin.empty();
+  for (Neighbour& n : w.share.neighbours) {
     const double* from = n.incoming.data();
     const auto next = [&] {
       from += 3;

@@ -26,6 +26,7 @@ struct Share {
   std::size_t block = 64;           ///< rows of a block
   std::vector<std::size_t> bounds;  ///< rank r owns rows [bounds[r], bounds[r + 1]); multiples of `block`
   std::vector<Neighbour> neighbours;
+  std::vector<char> reaching;  ///< of several ranks, per block of bonds: true where one ends in another's part
   std::shared_ptr<World> whole;  ///< of several ranks, on the root: what files and messages are made from
 
   Rows own() const {
@@ -160,7 +161,11 @@ std::size_t collect_cracks(World& world, double axial_strain);
 /// The contacts that the root's whole world has listed anew, and the step that it has chosen, to every rank.
 void hand_out_contacts(World& world);
 
-/// Motion of the particles that other ranks own and bonds or contacts of this one hold.
-void exchange_motion(World& world);
+/// Motion of the particles that other ranks' bonds and contacts hold goes out to them; it travels while the bonds that
+/// need none from elsewhere are passed over.
+void send_motion(World& world);
+/// The same of the other ranks' particles that this one holds comes in, where it is still on its way: before anyone
+/// looks at them.
+void receive_motion(World& world);
 
 }  // namespace breccia

@@ -9,9 +9,15 @@
 namespace breccia {
 namespace {
 
-void search_if_due(World& w) {
+bool search_is_due(World& w) {
   const Lap lap(w.phases, Phase::search);
-  if (!search_is_due(w.search, w.particles, w.share, w.step, w.dt, w.options.threads)) return;
+  return search_is_due(w.search, w.particles, w.share, w.step, w.dt, w.options.threads);
+}
+
+void search_if_due(World& w) {
+  if (!search_is_due(w)) return;
+  receive_motion(w);
+  const Lap lap(w.phases, Phase::search);
   // of several ranks the root lists the contacts and looks at the step, for all of them
   World& whole = bring_together(w);
   if (w.share.ranks.is_root()) {
@@ -38,19 +44,47 @@ void settle_broken(World& w) {
       widen_history(w.narrow_bonds, broken.bond, broken.bond + 1, w.bonds);
 }
 
-void bond_forces(World& w) {
+/// Calls pass(first, last) for the bonds of a range: all of them, or of several ranks the runs of whole blocks that
+/// reach, or do not reach, into other ranks' parts.
+template <class Pass>
+void for_blocks(const World& w, int range, bool reaching, const Pass& pass) {
+  const std::size_t last = w.bond_plan.first(range + 1);
+  std::size_t first = w.bond_plan.first(range);
+  if (w.share.ranks.alone()) return pass(first, last);
+  const auto is_wanted = [&](std::size_t bond) {
+    return (w.share.reaching[bond / LoadBlock::capacity] != 0) == reaching;
+  };
+  while (first < last) {
+    std::size_t end = first;
+    while (end < last && is_wanted(end)) end += LoadBlock::capacity;
+    end = std::min(end, last);
+    if (first < end) pass(first, end);
+    first = std::max(end, first + LoadBlock::capacity);
+  }
+}
+
+void pass_over_bonds(World& w, bool reaching) {
   const Lap lap(w.phases, Phase::bonds);
-  ParticleTable& p = w.particles;
   BondTable& b = w.bonds;
-  const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, b.arm_offset, p);
+  const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, b.arm_offset, w.particles);
   const BondPassIn in = bond_pass_in(w);
   const BondPassHistory history = bond_pass_history(w);
   for_ranges(w.bond_plan.ranges, [&](int range) {
-    w.bond_pass(in, history, w.bond_plan.first(range), w.bond_plan.first(range + 1), to,
-                notes_of(w.cracks, range));
+    for_blocks(w, range, reaching, [&](std::size_t first, std::size_t last) {
+      w.bond_pass(in, history, first, last, to, notes_of(w.cracks, range));
+    });
   });
+}
+
+void bond_forces(World& w) {
+  pass_over_bonds(w, false);
+  if (!w.share.ranks.alone()) {
+    receive_motion(w);
+    pass_over_bonds(w, true);
+  }
+  const Lap lap(w.phases, Phase::bonds);
   settle_broken(w);
-  record_cracks(w.cracks, w.law, w.features.criterion == Criterion::coupled, w.time, w.dt, p, b);
+  record_cracks(w.cracks, w.law, w.features.criterion == Criterion::coupled, w.time, w.dt, w.particles, w.bonds);
 }
 
 void contact_forces(World& w) {
@@ -104,12 +138,6 @@ void integrate(World& w) {
   integrate_held(motion, upper.first, upper.last, w.dt, damping, {w.platens.velocity[1], !w.platens.rough});
 }
 
-void exchange(World& w) {
-  if (w.share.ranks.alone()) return;
-  const Lap lap(w.phases, Phase::halo);
-  exchange_motion(w);
-}
-
 }  // namespace
 
 void advance(World& w) {
@@ -122,7 +150,7 @@ void advance(World& w) {
   move_platens(w);
   book_energies(w);
   integrate(w);
-  exchange(w);
+  send_motion(w);
   w.time += w.dt;
   ++w.step;
 }

@@ -43,8 +43,10 @@ CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double>
   f.peak_stress = peak.axial_stress_Pa;
   f.peak_deviator = deviator(peak);
   f.strain_at_peak = peak.axial_strain;
-  for (std::size_t k = f.peak_row; k < rows.size(); ++k)
-    if (deviator(rows[k]) < 0.99 * f.peak_deviator) f.peak_reached = true;
+  double lowest = f.peak_deviator;  // since the peak
+  for (std::size_t k = f.peak_row; k < rows.size(); ++k) lowest = std::min(lowest, deviator(rows[k]));
+  const bool lasts = 50 * (rows.size() - 1 - f.peak_row) >= rows.size();
+  f.peak_reached = lowest < (lasts ? 0.99 : 0.95) * f.peak_deviator;
 
   const auto strain = [](const CurveRow& r) { return r.axial_strain; };
   const auto initial = rising(rows, f.peak_row, 0.05, 0.25);

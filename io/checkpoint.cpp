@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <fstream>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -9,6 +11,7 @@
 #include "core/row_order.hpp"
 #include "core/run_numbers.hpp"
 #include "io/checkpoint_numbers.hpp"
+#include "io/disk_space.hpp"
 #include "io/file_checksum.hpp"
 #include "io/file_trouble.hpp"
 #include "io/h5_columns.hpp"
@@ -146,9 +149,10 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, const 
   const fs::path file = newest(folder), aside = name_aside(file);
   try {
     // on a full disk HDF5 may end the whole program when it closes a file: the room is claimed first
-    claim_room(aside, column_bytes(w.particles) + column_bytes(w.bonds) + column_bytes(w.contacts) +
-                          sizeof(CurveRow) * result.record.rows.size() +
-                          (sizeof(Crack) + 32) * w.cracks.cracks.size() + (std::size_t{1} << 20));
+    if (!std::ofstream(aside, std::ios::trunc)) fail_to_write(aside, errno);
+    claim_space(aside, column_bytes(w.particles) + column_bytes(w.bonds) + column_bytes(w.contacts) +
+                           sizeof(CurveRow) * result.record.rows.size() +
+                           (sizeof(Crack) + 32) * w.cracks.cracks.size() + (std::size_t{1} << 20));
     write_file(aside, head, w, state, result);
     seal(aside);
   } catch (const std::exception& error) {

@@ -1,8 +1,5 @@
 #include "io/file_checksum.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -91,16 +88,6 @@ bool is_sealed(const fs::path& file) {
   in.read(there.data(), there.size());
   in.read(reinterpret_cast<char*>(&found), sizeof(found));
   return in && there == mark && found == expected;
-}
-
-void claim_room(const fs::path& path, std::size_t bytes) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) fail_to_write(path, errno);
-  int error = EINTR;  // EINTR: a signal asked for a checkpoint
-  while (error == EINTR) error = ::posix_fallocate(file, 0, static_cast<off_t>(bytes));
-  if (error == EINVAL || error == EOPNOTSUPP) error = 0;  // the file system cannot: as good as it gets
-  ::close(file);
-  if (error != 0) fail_to_write(path, error);
 }
 
 }  // namespace breccia

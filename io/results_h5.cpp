@@ -1,8 +1,6 @@
 #include "io/results_h5.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
@@ -10,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/row_order.hpp"
+#include "io/disk_space.hpp"
 #include "io/file_trouble.hpp"
 #include "io/h5_columns.hpp"
 #include "io/write_aside.hpp"
@@ -52,19 +51,6 @@ constexpr unsigned usual_runs = 64, usual_frames = 128;  ///< more are possible,
 // in between leaves a file that is too long, which HDF5 accepts, never one that is too short. And a new group
 // is written and flushed behind everything else before anything refers to it. What is overwritten in place
 // after that is the block of links of its parent, which has room for one more.
-
-/// Makes the file `bytes` longer, or leaves it as it was.
-void claim_space(const fs::path& path, std::size_t bytes) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-  if (file < 0) fail_to_write(path, errno);
-  const off_t size = ::lseek(file, 0, SEEK_END);
-  int error = size < 0 ? errno : EINTR;  // EINTR: a signal asked for a checkpoint
-  while (error == EINTR) error = ::posix_fallocate(file, size, static_cast<off_t>(bytes));
-  if (error == EINVAL || error == EOPNOTSUPP) error = 0;  // the file system cannot: as good as it gets
-  if (error != 0 && size >= 0 && ::ftruncate(file, size) != 0) error = errno;
-  ::close(file);
-  if (error != 0) fail_to_write(path, error);
-}
 
 /// Adds the group parent/name, made for so many links, filled by `write(group)` with `bytes` of columns at
 /// most.
