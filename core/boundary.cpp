@@ -147,7 +147,8 @@ void press_skin(Confinement& c, ParticleTable& particles, const Share& share) {
     const double radial = x.x * x.x + x.y * x.y;
     const double inward = -c.pressure * c.weight[k] / std::sqrt(radial);
     const Vec3& f = c.force[k] = {inward * x.x, inward * x.y, 0.0};
-    return SkinSums{1.0, x.x, x.y, x.z, x.z * x.z, x.x * x.z, x.y * x.z, radial, f.x, f.y, x.z * f.x, x.z * f.y};
+    return SkinSums{1.0,       x.x,    x.y, x.z, x.z * x.z, x.x * x.z,
+                    x.y * x.z, radial, f.x, f.y, x.z * f.x, x.z * f.y};
   });
   Eigen::Matrix<double, 5, 5> gram;
   // clang-format off

@@ -65,8 +65,8 @@ Cells sort_into_cells(Strided<const Vec3> position, std::span<const double> radi
 
 }  // namespace
 
-std::vector<RowPair> near_pairs(Strided<const Vec3> position, std::span<const double> radius,
-                                double relative, double absolute, int threads) {
+std::vector<RowPair> near_pairs(Strided<const Vec3> position, std::span<const double> radius, double relative,
+                                double absolute, int threads) {
   if (position.empty()) return {};
   const double largest = *std::max_element(radius.begin(), radius.end());
   const double reach = (1.0 + relative) * 2.0 * largest + absolute;

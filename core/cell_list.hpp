@@ -17,7 +17,7 @@ struct RowPair {
 /// only.
 /// @param relative  1, above -1
 /// @param absolute  m
-std::vector<RowPair> near_pairs(Strided<const Vec3> position, std::span<const double> radius,
-                                double relative, double absolute, int threads);
+std::vector<RowPair> near_pairs(Strided<const Vec3> position, std::span<const double> radius, double relative,
+                                double absolute, int threads);
 
 }  // namespace breccia

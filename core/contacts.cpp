@@ -68,8 +68,8 @@ ContactSearch make_contact_search(const Assembly& a, bool enabled, double skin) 
   return s;
 }
 
-bool search_is_due(ContactSearch& s, const ParticleTable& p, const Share& share, std::uint64_t step, double dt,
-                   int threads) {
+bool search_is_due(ContactSearch& s, const ParticleTable& p, const Share& share, std::uint64_t step,
+                   double dt, int threads) {
   if (!s.enabled || step < s.next_check) return false;
   s.next_check = step + static_cast<std::uint64_t>(s.check_every);
 

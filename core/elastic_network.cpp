@@ -26,7 +26,8 @@ SpringLoad<Real> load_of(const Network<Real>& net, std::size_t k, const VectorOf
   const auto& [lo, hi, k_n, k_s] = net.springs[k];
   const auto& [normal, arm_ratio] = net.branches[k];
   const std::size_t at_lo = 6 * std::size_t{lo}, at_hi = 6 * std::size_t{hi};
-  const Vec<Real> turn = arm_ratio * (net.radius[lo] * three<Real>(u, at_lo + 3) + net.radius[hi] * three<Real>(u, at_hi + 3));
+  const Vec<Real> turn =
+      arm_ratio * (net.radius[lo] * three<Real>(u, at_lo + 3) + net.radius[hi] * three<Real>(u, at_hi + 3));
   const Vec<Real> relative = three<Real>(u, at_hi) - three<Real>(u, at_lo) - cross(turn, normal);
   const Vec<Real> pull = (k_n - k_s) * dot(relative, normal) * normal + k_s * relative;
   return {pull, arm_ratio * cross(normal, pull)};

@@ -51,8 +51,8 @@ Network<Real> elastic_network(const ParticleTable& particles, const BondTable& b
 template <class Real>
 void set_constants(Network<Real>& network, const std::function<SpringConstants(std::size_t)>& constants);
 
-/// What a spring passes on: N, what it pulls its lower end with, and that times its branch's normal and arm over
-/// radius, on both ends alike. One line of the cache, or half of one.
+/// What a spring passes on: N, what it pulls its lower end with, and that times its branch's normal and arm
+/// over radius, on both ends alike. One line of the cache, or half of one.
 template <class Real>
 struct alignas(8 * sizeof(Real)) SpringLoad {
   Vec<Real> pull, moment;

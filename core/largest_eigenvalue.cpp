@@ -95,9 +95,11 @@ LargestEigenvalue largest_eigenvalue(
 }
 
 template LargestEigenvalue largest_eigenvalue<double>(
-    Eigen::Index, const std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)>&, const LanczosEffort&, int);
+    Eigen::Index, const std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)>&, const LanczosEffort&,
+    int);
 template LargestEigenvalue largest_eigenvalue<float>(
-    Eigen::Index, const std::function<void(const Eigen::VectorXf&, Eigen::VectorXf&)>&, const LanczosEffort&, int);
+    Eigen::Index, const std::function<void(const Eigen::VectorXf&, Eigen::VectorXf&)>&, const LanczosEffort&,
+    int);
 
 double largest_eigenvalue(const Eigen::MatrixXd& matrix) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);

@@ -67,8 +67,7 @@ void enter(Run& run, Stage stage) {
 }
 
 void note_run_time(Run& run) {
-  run.result.run_time =
-      run.run_time_before + std::chrono::duration<double>(Clock::now() - run.begun).count();
+  run.result.run_time = run.run_time_before + std::chrono::duration<double>(Clock::now() - run.begun).count();
 }
 
 /// Tells a program how far a run is, a few times a second, and what has cracked.
@@ -205,7 +204,8 @@ void set_speed(World& w, Loading loading, double speed) {
   w.platens.velocity[1].z = -inward;
 }
 
-/// The instruments of a stage that is recorded: set to zero, and a first picture taken, unless a checkpoint was made in it.
+/// The instruments of a stage that is recorded: set to zero, and a first picture taken, unless a checkpoint
+/// was made in it.
 Instruments begin_or_go_on(Run& run, Stage stage) {
   const bool resumed = run.state.stage == stage;
   const Instruments in =

@@ -1,5 +1,6 @@
-// What the loop over bonds fetches of a particle lies together: its motion in one record, its sums in another.
-// An end of a bond then costs three lines of the cache where five columns cost five (data/performance).
+// What the loop over bonds fetches of a particle lies together: its motion in one record, its sums in
+// another. An end of a bond then costs three lines of the cache where five columns cost five
+// (data/performance).
 #pragma once
 #include <algorithm>
 #include <utility>
@@ -32,7 +33,9 @@ public:
   Column<Vec3> copy() const { return {begin(), end()}; }
   /// @param values  one for each row
   void fill(Strided<const Vec3> values) { std::copy(values.begin(), values.end(), begin()); }
-  bool operator==(const RecordField& other) const { return std::equal(begin(), end(), other.begin(), other.end()); }
+  bool operator==(const RecordField& other) const {
+    return std::equal(begin(), end(), other.begin(), other.end());
+  }
 
 private:
   friend struct ParticleRecords;
@@ -46,7 +49,8 @@ struct ParticleRecords {
   RecordField force, torque;
 
   ParticleRecords() = default;
-  ParticleRecords(const ParticleRecords& other) : turn_(other.turn_), motion_(other.motion_), sums_(other.sums_) {
+  ParticleRecords(const ParticleRecords& other)
+      : turn_(other.turn_), motion_(other.motion_), sums_(other.sums_) {
     bind();
   }
   ParticleRecords(ParticleRecords&& other) noexcept { swap(other); }
@@ -75,7 +79,9 @@ private:
 
   void bind() {
     const auto field = [](Column<Vec3>& records, std::size_t place, std::size_t stride, bool there) {
-      return there && !records.empty() ? Strided<Vec3>(records.data() + place, records.size() / stride, stride) : Strided<Vec3>();
+      return there && !records.empty()
+                 ? Strided<Vec3>(records.data() + place, records.size() / stride, stride)
+                 : Strided<Vec3>();
     };
     position.rows_ = field(motion_, 0, motion_stride(), true);
     velocity.rows_ = field(motion_, 1, motion_stride(), true);

@@ -52,16 +52,16 @@ std::vector<T> gather_elements(const Ranks& ranks, std::span<const T> mine) {
 /// What two ranks send each other at every step.
 struct Neighbour {
   int rank = 0;
-  std::vector<Row> send, receive;              ///< rows of particles, rising
-  std::vector<double> outgoing, incoming;      ///< the numbers of them
+  std::vector<Row> send, receive;          ///< rows of particles, rising
+  std::vector<double> outgoing, incoming;  ///< the numbers of them
 };
 
 /// Fills `send` of each neighbour: what the other side wants to receive of this one.
 /// @param neighbours  with `receive`, for every rank but this one
 void tell_wishes(const Ranks& ranks, std::vector<Neighbour>& neighbours);
 
-/// Sends every `outgoing` and asks for every `incoming`; neither may be touched until the exchange is finished. One at
-/// a time.
+/// Sends every `outgoing` and asks for every `incoming`; neither may be touched until the exchange is
+/// finished. One at a time.
 void begin_exchange(std::vector<Neighbour>& neighbours);
 /// Waits until all of it has gone and come. @returns false when none was begun
 bool finish_exchange();

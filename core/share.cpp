@@ -99,7 +99,8 @@ template <class Table>
 void add_foreign_ends(const Share& s, const Table& t, std::vector<std::vector<Row>>& wanted) {
   for (std::size_t k = 0; k < t.padded; ++k)
     for (const Row row : {t.row_lo[k], t.row_hi[k]})
-      if (const int owner = s.owner(row); owner != s.ranks.rank) wanted[static_cast<std::size_t>(owner)].push_back(row);
+      if (const int owner = s.owner(row); owner != s.ranks.rank)
+        wanted[static_cast<std::size_t>(owner)].push_back(row);
 }
 
 /// Blocks of bonds of which one at least ends in another rank's part.
@@ -108,7 +109,8 @@ std::vector<char> reaching_blocks(const Share& s, const BondTable& b) {
   const auto is_mine = [&](Row row) { return row >= mine.first && row < mine.last; };
   std::vector<char> reaching((b.padded + LoadBlock::capacity - 1) / LoadBlock::capacity, 0);
   for (std::size_t k = 0; k < b.padded; ++k)
-    if (b.stiffness[k] > 0.0 && !(is_mine(b.row_lo[k]) && is_mine(b.row_hi[k]))) reaching[k / LoadBlock::capacity] = 1;
+    if (b.stiffness[k] > 0.0 && !(is_mine(b.row_lo[k]) && is_mine(b.row_hi[k])))
+      reaching[k / LoadBlock::capacity] = 1;
   return reaching;
 }
 
@@ -177,9 +179,9 @@ void gather_ledger(const Ranks& ranks, const EnergyLedger& mine, EnergyLedger* w
 }
 
 void plan_bonds(World& w) {
-  w.bond_plan = plan_scatter(w.options.scatter, w.options.threads, LoadBlock::capacity, w.bonds.row_lo,
-                             w.bonds.row_hi, w.bonds.gid_lo, w.bonds.gid_hi, w.bonds.arm_offset,
-                             w.particles.size);
+  w.bond_plan =
+      plan_scatter(w.options.scatter, w.options.threads, LoadBlock::capacity, w.bonds.row_lo, w.bonds.row_hi,
+                   w.bonds.gid_lo, w.bonds.gid_hi, w.bonds.arm_offset, w.particles.size);
 }
 
 }  // namespace
@@ -244,7 +246,8 @@ World& bring_together(World& w) {
   gather_columns(ranks, w.contacts, {0, w.contacts.size}, whole ? &whole->contacts : nullptr, is_remembered);
   gather_ledger(ranks, w.ledger, whole ? &whole->ledger : nullptr);
   std::vector<Vec3> push;
-  for_own_entries(w.share, w.confinement.rows, [&](std::size_t k) { push.push_back(w.confinement.force[k]); });
+  for_own_entries(w.share, w.confinement.rows,
+                  [&](std::size_t k) { push.push_back(w.confinement.force[k]); });
   push = gather_elements(ranks, std::span<const Vec3>(push));
   if (!whole) return w;
   whole->time = w.time;
@@ -278,7 +281,8 @@ std::size_t collect_cracks(World& w, double axial_strain) {
   if (!w.share.whole) return 0;
   w.share.whole->cracks.missed += std::accumulate(missed.begin(), missed.end(), std::size_t{0});
   // ranks have bonds in rising order: of one moment they stand in the order of the whole table already
-  std::stable_sort(fresh.begin(), fresh.end(), [](const Crack& a, const Crack& b) { return a.time < b.time; });
+  std::stable_sort(fresh.begin(), fresh.end(),
+                   [](const Crack& a, const Crack& b) { return a.time < b.time; });
   for (Crack& crack : fresh) crack.axial_strain = axial_strain;
   std::vector<Crack>& all = w.share.whole->cracks.cracks;
   all.insert(all.end(), fresh.begin(), fresh.end());

@@ -2,7 +2,8 @@
 // curve, and the bonds whose lower row is among them. Rows mean the same on every rank.
 //
 // Sums over particles, bonds or lists of rows are taken block of rows by block of rows, then over the blocks
-// in their order. Ranks own whole blocks, so that a sum has the same bits for any number of ranks and threads.
+// in their order. Ranks own whole blocks, so that a sum has the same bits for any number of ranks and
+// threads.
 #pragma once
 #include <algorithm>
 #include <memory>
@@ -26,7 +27,8 @@ struct Share {
   std::size_t block = 64;           ///< rows of a block
   std::vector<std::size_t> bounds;  ///< rank r owns rows [bounds[r], bounds[r + 1]); multiples of `block`
   std::vector<Neighbour> neighbours;
-  std::vector<char> reaching;  ///< of several ranks, per block of bonds: true where one ends in another's part
+  /// Of several ranks, per block of bonds: true where one ends in another's part.
+  std::vector<char> reaching;
   std::shared_ptr<World> whole;  ///< of several ranks, on the root: what files and messages are made from
 
   Rows own() const {
@@ -93,13 +95,15 @@ auto each(const Term& term) {
 /// Over all rows of particles.
 template <class T, class Term>
 T sum_particles(const Share& s, int threads, std::vector<T>& blocks, const Term& term) {
-  return sum_blocks(s, threads, blocks, [](std::size_t row) { return row; }, each<T>(term));
+  return sum_blocks(
+      s, threads, blocks, [](std::size_t row) { return row; }, each<T>(term));
 }
 
 /// The same, range by range: over(first, last).
 template <class T, class Over>
 T sum_particle_ranges(const Share& s, int threads, std::vector<T>& blocks, const Over& over) {
-  return sum_blocks(s, threads, blocks, [](std::size_t row) { return row; }, over);
+  return sum_blocks(
+      s, threads, blocks, [](std::size_t row) { return row; }, over);
 }
 
 /// Over a list of rows, rising; term is called with places in the list.
@@ -122,8 +126,8 @@ void for_own_entries(const Share& s, std::span<const Row> list, const Work& work
   for (std::size_t k = at(mine.first); k < at(mine.last); ++k) work(k);
 }
 
-/// Over the owned bonds or contacts of a table, sorted by the lower row of their ends, range by range: over(first,
-/// last).
+/// Over the owned bonds or contacts of a table, sorted by the lower row of their ends, range by range:
+/// over(first, last).
 template <class T, class Table, class Over>
 T sum_pair_ranges(const Share& s, const Table& t, int threads, std::vector<T>& blocks, const Over& over) {
   const auto first_at = [&](std::size_t row) {
@@ -154,18 +158,18 @@ World& bring_together(World& world);
 /// The root's whole world, as it was brought together last; of one rank the world itself.
 World& whole_of(World& world);
 
-/// Takes the cracks of all ranks since the last call into the whole record, in the order of time and of bonds, as
-/// of a row of the curve with this strain. @returns how many
+/// Takes the cracks of all ranks since the last call into the whole record, in the order of time and of
+/// bonds, as of a row of the curve with this strain. @returns how many
 std::size_t collect_cracks(World& world, double axial_strain);
 
 /// The contacts that the root's whole world has listed anew, and the step that it has chosen, to every rank.
 void hand_out_contacts(World& world);
 
-/// Motion of the particles that other ranks' bonds and contacts hold goes out to them; it travels while the bonds that
-/// need none from elsewhere are passed over.
+/// Motion of the particles that other ranks' bonds and contacts hold goes out to them; it travels while the
+/// bonds that need none from elsewhere are passed over.
 void send_motion(World& world);
-/// The same of the other ranks' particles that this one holds comes in, where it is still on its way: before anyone
-/// looks at them.
+/// The same of the other ranks' particles that this one holds comes in, where it is still on its way: before
+/// anyone looks at them.
 void receive_motion(World& world);
 
 }  // namespace breccia

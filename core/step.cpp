@@ -44,8 +44,8 @@ void settle_broken(World& w) {
       widen_history(w.narrow_bonds, broken.bond, broken.bond + 1, w.bonds);
 }
 
-/// Calls pass(first, last) for the bonds of a range: all of them, or of several ranks the runs of whole blocks that
-/// reach, or do not reach, into other ranks' parts.
+/// Calls pass(first, last) for the bonds of a range: all of them, or of several ranks the runs of whole
+/// blocks that reach, or do not reach, into other ranks' parts.
 template <class Pass>
 void for_blocks(const World& w, int range, bool reaching, const Pass& pass) {
   const std::size_t last = w.bond_plan.first(range + 1);
@@ -84,7 +84,8 @@ void bond_forces(World& w) {
   }
   const Lap lap(w.phases, Phase::bonds);
   settle_broken(w);
-  record_cracks(w.cracks, w.law, w.features.criterion == Criterion::coupled, w.time, w.dt, w.particles, w.bonds);
+  record_cracks(w.cracks, w.law, w.features.criterion == Criterion::coupled, w.time, w.dt, w.particles,
+                w.bonds);
 }
 
 void contact_forces(World& w) {

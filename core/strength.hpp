@@ -12,10 +12,10 @@ namespace breccia {
 /// What a curve says; absent where it does not go far enough.
 struct CurveFindings {
   std::size_t peak_row = 0;
-  double peak_stress = 0;     ///< Pa, total
-  double peak_deviator = 0;   ///< Pa
-  /// The deviator fell after its largest value: by more than 1 %, or, where that lies in the last fiftieth of the
-  /// curve, 5 %. A curve that still rises falls by 1 % now and then, when a few bonds break at once.
+  double peak_stress = 0;    ///< Pa, total
+  double peak_deviator = 0;  ///< Pa
+  /// The deviator fell after its largest value: by more than 1 %, or, where that lies in the last fiftieth of
+  /// the curve, 5 %. A curve that still rises falls by 1 % now and then, when a few bonds break at once.
   bool peak_reached = false;
   double strain_at_peak = 0;
   std::optional<double> young_modulus, young_modulus_50, poisson_ratio;

@@ -52,8 +52,8 @@ SpringConstants step_constants(const StepScene& s, std::size_t k, double dt) {
 }
 
 /// M^-1/2 (dt^2 K/4 + dt C/2) M^-1/2 (1 + alpha) of a scene. One network takes the constants of all steps in
-/// turn: it is the largest thing that a run ever holds beside its tables. Masses are counted in their mean, so that
-/// floats hold them.
+/// turn: it is the largest thing that a run ever holds beside its tables. Masses are counted in their mean,
+/// so that floats hold them.
 template <class Real>
 class ScaledNetwork {
 public:

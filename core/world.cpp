@@ -134,9 +134,9 @@ BondEnergyIn bond_energy_in(const World& w, double back) {
 
 Motion motion_of(World& w) {
   ParticleTable& p = w.particles;
-  return {p.position, p.velocity, p.spin,   p.force,
-          p.torque,   p.mass,     p.radius, inertia_factor(w),
-          w.options.features.rotation};
+  return {p.position, p.velocity,        p.spin,
+          p.force,    p.torque,          p.mass,
+          p.radius,   inertia_factor(w), w.options.features.rotation};
 }
 
 BondPassHistory bond_pass_history(World& w) {
@@ -162,7 +162,8 @@ BrokenCount count_broken(const World& w) {
   std::vector<BrokenCount> blocks;
   return sum_pairs(w.share, w.bonds, w.options.threads, blocks, [&](std::size_t k) {
     const BondState state = bond_state(w.bonds, k);
-    return BrokenCount{std::size_t{state == BondState::broken_tension}, std::size_t{state == BondState::broken_shear}};
+    return BrokenCount{std::size_t{state == BondState::broken_tension},
+                       std::size_t{state == BondState::broken_shear}};
   });
 }
 
@@ -188,15 +189,16 @@ double stored_energy(const World& w, double back) {
   const BondEnergyIn in = bond_energy_in(w, back);
   const double sum = std::visit(
       [&](const auto& law) {
-        return sum_pair_ranges(w.share, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
-          double energy = w.undamaged_energy(in, first, last);
-          if (b.damage_normal.empty()) return energy;
-          for (std::size_t k = first; k < last; ++k)
-            if (b.damage_normal[k] > 0.0 || b.damage_shear[k] > 0.0)
-              energy += stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k),
-                                      distance_of(b.row_lo[k], b.row_hi[k]), coupled);
-          return energy;
-        });
+        return sum_pair_ranges(
+            w.share, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
+              double energy = w.undamaged_energy(in, first, last);
+              if (b.damage_normal.empty()) return energy;
+              for (std::size_t k = first; k < last; ++k)
+                if (b.damage_normal[k] > 0.0 || b.damage_shear[k] > 0.0)
+                  energy += stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k),
+                                          distance_of(b.row_lo[k], b.row_hi[k]), coupled);
+              return energy;
+            });
       },
       w.law);
   const ContactTable& c = w.contacts;

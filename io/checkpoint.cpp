@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t format = 1;  ///< of the file; another one is not read
 
-const ColumnInfo listed_position{
-    "Vec3", "listed_position", "m", Role::state, Need::always, "centre when contacts were last listed"};
+const ColumnInfo listed_position{"Vec3",      "listed_position", "m",
+                                 Role::state, Need::always,      "centre when contacts were last listed"};
 
 fs::path newest(const fs::path& folder) { return folder / "checkpoint.h5"; }
 fs::path before(const fs::path& folder) { return folder / "checkpoint-before.h5"; }

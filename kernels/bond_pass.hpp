@@ -27,8 +27,8 @@ struct BondHistoryColumns {
   std::span<Stored> shear_x, shear_y, shear_z, plastic_stretch, damage_normal, damage_shear;
 };
 
-/// What the pass reads. Rows of particles (velocities and spins as far apart as positions), spans by bond row; columns of absent features,
-/// and those of the precision that does not run, are empty.
+/// What the pass reads. Rows of particles (velocities and spins as far apart as positions), spans by bond
+/// row; columns of absent features, and those of the precision that does not run, are empty.
 struct BondPassIn {
   double dt = 0;              ///< s
   const void* law = nullptr;  ///< constants, of the type that the kernel was chosen for (see constants_of)

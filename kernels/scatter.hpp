@@ -37,8 +37,8 @@ struct Scatter {
   ScatterMode mode = ScatterMode::own;
   std::span<const Index> to_lo, to_hi;  ///< rows to add to
   std::span<const double> arm_offset;   ///< per bond: lo gets 1/2 + this of the moment, hi the rest
-  Strided<Vec3> force, torque;          ///< N, N m, as far apart as each other; torque is empty where nothing spins
-  std::span<BondLoad> bond_load;        ///< column: per bond
+  Strided<Vec3> force, torque;    ///< N, N m, as far apart as each other; torque is empty where nothing spins
+  std::span<BondLoad> bond_load;  ///< column: per bond
 };
 
 /// Adds `count` loads of bonds [first, first + count).

@@ -37,12 +37,10 @@ public:
   constexpr Strided(T* first, std::size_t size, std::size_t stride)
       : first_(first), size_(size), stride_(stride) {}
   template <std::ranges::contiguous_range Values>
-    requires std::convertible_to<decltype(std::ranges::data(std::declval<Values&>())), T*>
+  requires std::convertible_to<decltype(std::ranges::data(std::declval<Values&>())), T*>
   constexpr Strided(Values&& values)
       : first_(std::ranges::data(values)), size_(std::ranges::size(values)), stride_(1) {}
-  constexpr operator Strided<const T>() const
-    requires(!std::is_const_v<T>)
-  {
+  constexpr operator Strided<const T>() const requires(!std::is_const_v<T>) {
     return {first_, size_, stride_};
   }
 

@@ -14,8 +14,9 @@ Lanes lanes_of(std::span<const double> column, std::size_t k) {
 /// From the lower end to the other.
 Vec<Lanes> branches(const BondEnergyIn& in, std::size_t k) {
   const auto between = [&](const Strided<const Vec3>& rows) {
-    return columns_of(
-        [&](std::size_t lane) -> Four { return four(rows[in.row_hi[k + lane]]) - four(rows[in.row_lo[k + lane]]); });
+    return columns_of([&](std::size_t lane) -> Four {
+      return four(rows[in.row_hi[k + lane]]) - four(rows[in.row_lo[k + lane]]);
+    });
   };
   const Vec<Lanes> now = between(in.position);
   return in.back == 0.0 ? now : now - Lanes(in.back) * between(in.velocity);
@@ -25,10 +26,12 @@ Lanes energies(const BondEnergyIn& in, std::size_t k) {
   const Vec<Lanes> branch = branches(in, k);
   const Vec<Lanes> shear{lanes_of(in.shear_x, k), lanes_of(in.shear_y, k), lanes_of(in.shear_z, k)};
   const Lanes stiffness = lanes_of(in.stiffness, k);
-  const Lanes stretch = square_root(dot(branch, branch)) - lanes_of(in.rest_length, k) - lanes_of(in.plastic_stretch, k);
+  const Lanes stretch =
+      square_root(dot(branch, branch)) - lanes_of(in.rest_length, k) - lanes_of(in.plastic_stretch, k);
   Lanes twice = stiffness * stretch * stretch;
   if (in.shear_ratio > 0.0) twice += dot(shear, shear) / (Lanes(in.shear_ratio) * stiffness);
-  const auto counts = stiffness > 0.0 && lanes_of(in.damage_normal, k) == 0.0 && lanes_of(in.damage_shear, k) == 0.0;
+  const auto counts =
+      stiffness > 0.0 && lanes_of(in.damage_normal, k) == 0.0 && lanes_of(in.damage_shear, k) == 0.0;
   return select(counts, Lanes(0.5) * twice, Lanes(0.0));
 }
 

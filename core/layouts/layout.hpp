@@ -7,8 +7,8 @@
 
 namespace breccia {
 
-/// records: position, velocity and spin of a particle side by side, its force and torque in a record of their own
-/// (production). columns: each a column
+/// records: position, velocity and spin of a particle side by side, its force and torque in a record of their
+/// own (production). columns: each a column
 enum class ParticleStorage { records, columns };
 
 /// private_sums, gather: as in production. shared_atomic: production's `atomic`. all_atomic: every add.

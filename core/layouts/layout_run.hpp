@@ -38,8 +38,8 @@ private:
   StoredPass stored_pass_ = nullptr;
   struct {
     Column<Vec3> position, velocity, spin;
-    Column<Vec3> force, torque;  ///< of the particles, and the ranges' own
-  } columns_;                    ///< empty where particles lie in their records
+    Column<Vec3> force, torque;       ///< of the particles, and the ranges' own
+  } columns_;                         ///< empty where particles lie in their records
   std::vector<Index> to_lo_, to_hi_;  ///< rows to add to, where they are not production's
   std::vector<std::size_t> first_of_colour_;
   std::vector<Row> source_;  ///< of each coloured bond in the scene's table

@@ -69,7 +69,9 @@ TEST_CASE(
   CHECK(f.platen_mismatch == doctest::Approx(1e5 / 40e6).epsilon(1e-3));
 }
 
-TEST_CASE("strength: a curve that rises to its end in saws of 1.5 % has no peak, with a fall of 6 % there it has [exact]") {
+TEST_CASE(
+    "strength: a curve that rises to its end in saws of 1.5 % has no peak, with a fall of 6 % there it has "
+    "[exact]") {
   std::vector<CurveRow> rows;
   for (int k = 0; k < 500; ++k) {
     CurveRow row;

@@ -279,7 +279,8 @@ TEST_CASE("time step: what contacts add to the stability number stays below its 
   World w = make_world(a, scene::material_of(p), scene::factor(p), o);
   const double without = look_at_step(scene_of(w), w.dt).number;
   w.search.skin *= 5;  // many at once
-  renew_contacts(w.search, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, o.features, false, 1);
+  renew_contacts(w.search, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, o.features, false,
+                 1);
   REQUIRE(w.contacts.size > 20);
   std::vector<std::size_t> all(w.contacts.size);
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -305,7 +306,9 @@ TEST_CASE(
   CHECK(few.early < few.value);
   CHECK(few.applications == applications_for(n, 0.02, 1e-3));
   // in floats, as estimates in a run are
-  const auto apply_floats = [&](const Eigen::VectorXf& x, Eigen::VectorXf& y) { y = d.cast<float>().cwiseProduct(x); };
+  const auto apply_floats = [&](const Eigen::VectorXf& x, Eigen::VectorXf& y) {
+    y = d.cast<float>().cwiseProduct(x);
+  };
   const LargestEigenvalue rough =
       largest_eigenvalue<float>(n, apply_floats, {.applications = applications_for(n, 0.02, 1e-3)}, 1);
   CHECK(rough.value == doctest::Approx(few.value).epsilon(1e-5));

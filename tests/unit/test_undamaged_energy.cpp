@@ -44,7 +44,8 @@ bool is_damaged(const BondTable& b, std::size_t k) {
 
 }  // namespace
 
-TEST_CASE("undamaged energy: any range of bonds, every register, with and without features [bond by bond, 1e-13]") {
+TEST_CASE(
+    "undamaged energy: any range of bonds, every register, with and without features [bond by bond, 1e-13]") {
   for (const Features& asked : {Features{}, Features{.plasticity = false, .breakage = false}}) {
     const World w = broken_scene(asked);
     const BondTable& b = w.bonds;
@@ -52,7 +53,8 @@ TEST_CASE("undamaged energy: any range of bonds, every register, with and withou
     for (std::size_t k = 0; k < b.size; ++k) damaged += is_damaged(b, k);
     CHECK((damaged > 0) == asked.breakage);
     CHECK(damaged < b.size);
-    for (const InstructionSet set : {InstructionSet::x86_64, InstructionSet::x86_64_v3, InstructionSet::x86_64_v4}) {
+    for (const InstructionSet set :
+         {InstructionSet::x86_64, InstructionSet::x86_64_v3, InstructionSet::x86_64_v4}) {
       if (set > best_instruction_set()) continue;
       const UndamagedEnergy energy = undamaged_energy_for(set);
       for (const double back : {0.0, w.dt}) {
@@ -60,8 +62,16 @@ TEST_CASE("undamaged energy: any range of bonds, every register, with and withou
         double all = 0.0;
         for (std::size_t k = 0; k < b.size; ++k) all += energy_of_bond(w, k, back);
         REQUIRE(all > 0.0);
-        for (const auto& [first, last] : std::initializer_list<std::pair<std::size_t, std::size_t>>{
-                 {0, b.size}, {0, 1}, {0, 3}, {1, 2}, {5, 6}, {3, 20}, {9, 9}, {17, 80}, {b.size - 3, b.size}}) {
+        for (const auto& [first, last] :
+             std::initializer_list<std::pair<std::size_t, std::size_t>>{{0, b.size},
+                                                                        {0, 1},
+                                                                        {0, 3},
+                                                                        {1, 2},
+                                                                        {5, 6},
+                                                                        {3, 20},
+                                                                        {9, 9},
+                                                                        {17, 80},
+                                                                        {b.size - 3, b.size}}) {
           double sum = 0.0;
           for (std::size_t k = first; k < last; ++k)
             if (!is_damaged(b, k)) sum += energy_of_bond(w, k, back);
