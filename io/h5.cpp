@@ -86,7 +86,11 @@ void write_scalar(hid_t object, const char* name, hid_t file_type, hid_t memory_
 
 }  // namespace
 
-void be_silent() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void be_silent() {
+  // first of all: at the end of the program HDF5 would try again to write what a full disk has refused, and crash
+  H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 void check(std::int64_t result, std::string_view doing) {
   if (result >= 0) return;
