@@ -290,14 +290,20 @@ Guards make_guards(const World& w) {
   const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * g.farthest;
   for (std::size_t k = 0; k < w.bonds.size; ++k) g.noise += 0.5 * w.bonds.stiffness[k] * rounding * rounding;
   g.platen_work = w.platens.work;
-  note_skin(g, w);
+  for (const Row row : w.confinement.rows) g.skin.push_back(w.particles.position[row]);
+  g.push = w.confinement.force;
   return g;
 }
 
-void note_skin(Guards& g, const World& w) {
-  g.skin.clear();
-  for (const Row row : w.confinement.rows) g.skin.push_back(w.particles.position[row]);
-  g.push = w.confinement.force;
+void bring_skin_together(Guards& g, const World& w) {
+  const Ranks& ranks = w.share.ranks;
+  if (ranks.alone()) return;
+  for (std::vector<Vec3>* noted : {&g.skin, &g.push}) {
+    std::vector<Vec3> mine;
+    for_own_entries(w.share, w.confinement.rows, [&](std::size_t k) { mine.push_back((*noted)[k]); });
+    mine = gather_elements(ranks, std::span<const Vec3>(mine));
+    if (ranks.is_root()) *noted = std::move(mine);
+  }
 }
 
 namespace {

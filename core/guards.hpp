@@ -27,8 +27,8 @@ inline constexpr double out_of_balance = 0.1;
 /// A specimen as it stands now, with the velocities that it has.
 Guards make_guards(const World& world);
 
-/// Places of the skin and the pressure on it as they are now: those of a look that has just been taken.
-void note_skin(Guards& guards, const World& world);
+/// Brings to the root what each rank's guards have noted of its part of the skin.
+void bring_skin_together(Guards& guards, const World& world);
 
 /// A particle is lost beyond so many times the longest edge of the specimen's box.
 inline constexpr double lost_sizes = 10.0;

@@ -92,8 +92,7 @@ void frame_if_due(Run& run, double done, const CurveRow& row, bool last) {
   if (frames <= 0) return;
   if (!last && done * frames < static_cast<double>(run.state.frames)) return;
   const Lap lap(run.w.phases, Phase::output);
-  World& whole = bring_together(run.w);
-  if (run.hooks.frame && run.w.share.ranks.is_root()) run.hooks.frame(whole, run.state.frames, row);
+  if (run.hooks.frame) run.hooks.frame(run.w, run.state.frames, row);
   ++run.state.frames;
 }
 
@@ -107,11 +106,9 @@ bool checkpoint_if_due(Run& run) {
   if (run.hooks.checkpoint && (interrupted || asked[1] > 0.0)) {
     const Lap lap(run.w.phases, Phase::checkpoint);
     note_run_time(run);
-    World& whole = bring_together(run.w);
-    if (ranks.is_root()) {
-      note_skin(run.state.guards, whole);  // of several ranks each looks after its own part
-      run.hooks.checkpoint(whole, run.state, run.result);
-    }
+    bring_books_together(run.w);
+    bring_skin_together(run.state.guards, run.w);
+    run.hooks.checkpoint(run.w, run.state, run.result);
   }
   if (interrupted) run.result.stopped = Stopped::interrupted;
   return interrupted;

@@ -46,7 +46,7 @@ struct LoadResult {
 
 /// Readings of gauges and platens when loading began.
 struct Zeros {
-  double axial = 0, lateral = 0;  ///< strains
+  double axial = 0, lateral = 0;   ///< strains
   double approach = 0, shear = 0;  ///< m
 };
 
@@ -80,9 +80,10 @@ struct LoadHooks {
   std::function<bool()> interrupted;  ///< true ends the run with what there is
   /// about ten times a second at most: stage (1, 2), fraction of it done, and the present row
   std::function<void(int, double, const CurveRow&)> progress;
-  std::function<void(World&, std::size_t frame, const CurveRow&)> frame;
-  std::function<void(std::span<const Crack>)> cracks;  ///< new ones since the row before
+  std::function<void(World&, std::size_t frame, const CurveRow&)> frame;  ///< called on every rank
+  std::function<void(std::span<const Crack>)> cracks;                     ///< new ones since the row before
   std::function<bool()> checkpoint_due;  ///< asked between rows; an interrupted run makes one without asking
+  /// called on every rank, when its books have been brought together
   std::function<void(World&, const LoadState&, const LoadResult&)> checkpoint;
 };
 

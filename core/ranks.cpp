@@ -17,20 +17,21 @@ int number_of(const char* variable) {
 /// Of the one exchange that has begun.
 std::vector<MPI_Request> on_their_way;
 
+/// As MPI takes it: bytes, or elements.
 struct Layout {
-  std::vector<int> bytes, first;
+  std::vector<int> count, first;
 };
 
 /// MPI counts with ints: what is larger goes in pieces of this many bytes.
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
-Layout layout_of(std::span<const std::size_t> bytes) {
+Layout layout_of(std::span<const std::size_t> counts) {
   Layout layout;
   std::size_t first = 0;
-  for (const std::size_t b : bytes) {
-    layout.bytes.push_back(static_cast<int>(b));
+  for (const std::size_t count : counts) {
+    layout.count.push_back(static_cast<int>(count));
     layout.first.push_back(static_cast<int>(first));
-    first += b;
+    first += count;
   }
   return layout;
 }
@@ -66,7 +67,7 @@ void end_job(int code) {
 
 void gather_all(const Ranks& ranks, const void* mine, std::span<const std::size_t> bytes, void* all) {
   const Layout layout = layout_of(bytes);
-  MPI_Allgatherv(mine, layout.bytes[static_cast<std::size_t>(ranks.rank)], MPI_BYTE, all, layout.bytes.data(),
+  MPI_Allgatherv(mine, layout.count[static_cast<std::size_t>(ranks.rank)], MPI_BYTE, all, layout.count.data(),
                  layout.first.data(), MPI_BYTE, MPI_COMM_WORLD);
 }
 
@@ -116,9 +117,34 @@ bool any(const Ranks& ranks, bool here) {
 std::vector<std::size_t> sizes_of_all(const Ranks& ranks, std::size_t mine) {
   std::vector<std::size_t> all(static_cast<std::size_t>(ranks.count), mine);
   if (ranks.alone()) return all;
-  const std::vector<std::size_t> bytes(all.size(), sizeof(std::size_t));
-  gather_all(ranks, &mine, bytes, all.data());
+  MPI_Allgather(&mine, 1, MPI_UINT64_T, all.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
   return all;
+}
+
+std::size_t sum_of_all(const Ranks& ranks, std::size_t mine) {
+  const std::vector<std::size_t> all = sizes_of_all(ranks, mine);
+  return std::accumulate(all.begin(), all.end(), std::size_t{0});
+}
+
+void wait_for_all(const Ranks& ranks) {
+  if (!ranks.alone()) MPI_Barrier(MPI_COMM_WORLD);
+}
+
+void swap_elements(const Ranks&, std::size_t bytes, const void* mine, std::span<const std::size_t> to,
+                   void* all, std::span<const std::size_t> from) {
+  const Layout there = layout_of(to), here = layout_of(from);
+  MPI_Datatype element;
+  MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &element);
+  MPI_Type_commit(&element);
+  MPI_Alltoallv(mine, there.count.data(), there.first.data(), element, all, here.count.data(),
+                here.first.data(), element, MPI_COMM_WORLD);
+  MPI_Type_free(&element);
+}
+
+std::vector<std::size_t> sizes_for_me(const Ranks&, std::span<const std::size_t> to) {
+  std::vector<std::size_t> from(to.size());
+  MPI_Alltoall(to.data(), 1, MPI_UINT64_T, from.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
+  return from;
 }
 
 void tell_wishes(const Ranks& ranks, std::vector<Neighbour>& neighbours) {

@@ -1,6 +1,7 @@
 // The ranks of a job: the little of MPI that breccia uses. One rank alone never meets MPI.
 #pragma once
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -37,15 +38,33 @@ void largest_of_all(const Ranks& ranks, std::span<double> values);
 bool any(const Ranks& ranks, bool here);
 /// How much each rank gives.
 std::vector<std::size_t> sizes_of_all(const Ranks& ranks, std::size_t mine);
+std::size_t sum_of_all(const Ranks& ranks, std::size_t mine);
+/// Returns when every rank has come here.
+void wait_for_all(const Ranks& ranks);
+
+/// Every rank gives every rank some elements, each of `bytes`; they come in the order of ranks.
+/// @param to, from  elements for, and of, each rank
+void swap_elements(const Ranks& ranks, std::size_t bytes, const void* mine, std::span<const std::size_t> to,
+                   void* all, std::span<const std::size_t> from);
+/// How many elements each rank has for this one, where this one has `to` for each.
+std::vector<std::size_t> sizes_for_me(const Ranks& ranks, std::span<const std::size_t> to);
 
 /// Elements of each rank, one behind the other, at the root; empty elsewhere. T is copied as it lies.
 template <class T>
 std::vector<T> gather_elements(const Ranks& ranks, std::span<const T> mine) {
   std::vector<std::size_t> bytes = sizes_of_all(ranks, mine.size_bytes());
-  std::size_t total = 0;
-  for (const std::size_t b : bytes) total += b;
+  const std::size_t total = std::accumulate(bytes.begin(), bytes.end(), std::size_t{0});
   std::vector<T> all(ranks.is_root() ? total / sizeof(T) : 0);
   gather_at_root(ranks, mine.data(), bytes, all.data());
+  return all;
+}
+
+/// The same on every rank.
+template <class T>
+std::vector<T> gather_elements_everywhere(const Ranks& ranks, std::span<const T> mine) {
+  const std::vector<std::size_t> bytes = sizes_of_all(ranks, mine.size_bytes());
+  std::vector<T> all(std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) / sizeof(T));
+  gather_all(ranks, mine.data(), bytes, all.data());
   return all;
 }
 

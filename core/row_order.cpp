@@ -15,24 +15,28 @@ struct Key {
 };
 
 template <class KeyOf>
-std::vector<Row> sorted(std::size_t size, const KeyOf& key_of) {
-  std::vector<Key> keys(size);
-  for (std::size_t k = 0; k < size; ++k) keys[k] = key_of(static_cast<Row>(k));
+std::vector<Row> sorted(std::size_t first, std::size_t last, const KeyOf& key_of) {
+  std::vector<Key> keys(last - first);
+  for (std::size_t k = 0; k < keys.size(); ++k) keys[k] = key_of(static_cast<Row>(first + k));
   sort_on_threads(keys.begin(), keys.end());
-  std::vector<Row> rows(size);
-  for (std::size_t k = 0; k < size; ++k) rows[k] = keys[k].row;
+  std::vector<Row> rows(keys.size());
+  for (std::size_t k = 0; k < keys.size(); ++k) rows[k] = keys[k].row;
   return rows;
 }
 
 template <class Pairs>
 std::vector<Row> by_ends(const Pairs& pairs) {
-  return sorted(pairs.size, [&](Row row) { return Key{pairs.gid_lo[row], pairs.gid_hi[row], row}; });
+  return sorted(0, pairs.size, [&](Row row) { return Key{pairs.gid_lo[row], pairs.gid_hi[row], row}; });
 }
 
 }  // namespace
 
+std::vector<Row> rows_by_gid(const ParticleTable& particles, std::size_t first, std::size_t last) {
+  return sorted(first, last, [&](Row row) { return Key{particles.gid[row], 0, row}; });
+}
+
 std::vector<Row> rows_by_gid(const ParticleTable& particles) {
-  return sorted(particles.size, [&](Row row) { return Key{particles.gid[row], 0, row}; });
+  return rows_by_gid(particles, 0, particles.size);
 }
 
 std::vector<Row> rows_by_ends(const BondTable& bonds) { return by_ends(bonds); }

@@ -236,14 +236,22 @@ World cut(World all, const Ranks& ranks) {
 }
 
 World& bring_together(World& w) {
+  World& all = bring_books_together(w);
   if (w.share.ranks.alone()) return w;
-  receive_motion(w);
-  settle(w);
   World* whole = w.share.whole.get();
   const Ranks& ranks = w.share.ranks;
   gather_columns(ranks, w.particles, w.share.own(), whole ? &whole->particles : nullptr, is_state);
   gather_columns(ranks, w.bonds, {0, w.bonds.size}, whole ? &whole->bonds : nullptr, is_remembered);
   gather_columns(ranks, w.contacts, {0, w.contacts.size}, whole ? &whole->contacts : nullptr, is_remembered);
+  return all;
+}
+
+World& bring_books_together(World& w) {
+  receive_motion(w);
+  settle(w);
+  if (w.share.ranks.alone()) return w;
+  World* whole = w.share.whole.get();
+  const Ranks& ranks = w.share.ranks;
   gather_ledger(ranks, w.ledger, whole ? &whole->ledger : nullptr);
   std::vector<Vec3> push;
   for_own_entries(w.share, w.confinement.rows,

@@ -155,6 +155,9 @@ World cut(World whole, const Ranks& ranks);
 /// as it is
 World& bring_together(World& world);
 
+/// The same of all but the tables of particles, bonds and contacts: clock, platens, mantle, ledger.
+World& bring_books_together(World& world);
+
 /// The root's whole world, as it was brought together last; of one rank the world itself.
 World& whole_of(World& world);
 

@@ -5,15 +5,17 @@
 namespace breccia {
 namespace {
 
-/// Calls add(lo, hi, unit normal, distance, force on lo) for every bond and every pressed contact.
+/// Calls add(lo, hi, unit normal, distance, force on lo) for every bond and every pressed contact of the
+/// first so many; padding has no stiffness, and no force.
 template <class Add>
-void for_each_force(const World& w, const Add& add) {
+void for_each_force(const World& w, std::size_t bonds, std::size_t contacts, const Add& add) {
   const ParticleTable& p = w.particles;
   const BondTable& b = w.bonds;
   const bool coupled = w.features.criterion == Criterion::coupled;
   std::visit(
       [&](const auto& law) {
-        for (std::size_t k = 0; k < b.size; ++k) {
+        for (std::size_t k = 0; k < bonds; ++k) {
+          if (b.stiffness[k] == 0.0) continue;
           const Vec3 l = p.position[b.row_hi[k]] - p.position[b.row_lo[k]];
           const double distance = norm(l);
           const Vec3 n = (1.0 / distance) * l;
@@ -24,7 +26,8 @@ void for_each_force(const World& w, const Add& add) {
       },
       w.law);
   const ContactTable& c = w.contacts;
-  for (std::size_t k = 0; k < c.size; ++k) {
+  for (std::size_t k = 0; k < contacts; ++k) {
+    if (c.stiffness[k] == 0.0) continue;
     const Vec3 l = p.position[c.row_hi[k]] - p.position[c.row_lo[k]];
     const double distance = norm(l), overlap = c.free_length[k] - distance;
     if (overlap <= 0.0) continue;
@@ -42,9 +45,10 @@ void add_product(Stress& s, double factor, const Vec3& f, const Vec3& x) {
 
 Stress mean_stress_tensor(const World& w) {
   Stress s;
-  for_each_force(w, [&](Row, Row, const Vec3& n, double distance, const Vec3& on_lo) {
-    add_product(s, distance / w.volume, on_lo, n);
-  });
+  for_each_force(w, w.bonds.size, w.contacts.size,
+                 [&](Row, Row, const Vec3& n, double distance, const Vec3& on_lo) {
+                   add_product(s, distance / w.volume, on_lo, n);
+                 });
   return s;
 }
 
@@ -57,11 +61,13 @@ void fill_stress_columns(World& w) {
   double shares = 0.0;
   for (std::size_t row = 0; row < p.size; ++row) shares += share(row);
   std::vector<Stress> stress(p.size);
-  for_each_force(w, [&](Row lo, Row hi, const Vec3& n, double distance, const Vec3& on_lo) {
-    const double ratio = distance / (p.radius[lo] + p.radius[hi]);
-    add_product(stress[lo], ratio * p.radius[lo], on_lo, n);
-    add_product(stress[hi], ratio * p.radius[hi], on_lo, n);
-  });
+  // of several ranks the copies too: they end in this one's part
+  for_each_force(w, w.bonds.padded, w.contacts.padded,
+                 [&](Row lo, Row hi, const Vec3& n, double distance, const Vec3& on_lo) {
+                   const double ratio = distance / (p.radius[lo] + p.radius[hi]);
+                   add_product(stress[lo], ratio * p.radius[lo], on_lo, n);
+                   add_product(stress[hi], ratio * p.radius[hi], on_lo, n);
+                 });
   p.stress_normal.assign(p.padded, {});
   p.stress_shear.assign(p.padded, {});
   for (std::size_t row = 0; row < p.size; ++row) {

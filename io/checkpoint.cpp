@@ -38,22 +38,25 @@ bool is_identity(Role role) { return role == Role::identity; }
 bool changes(Role role) { return is_kept(role) && role != Role::identity; }
 bool changes_of_contacts(Role role) { return is_kept_of_contacts(role) && role != Role::identity; }
 
+/// The tables: every rank its part.
 void write_world(hid_t file, const World& w) {
-  const std::vector<Row> by_gid = rows_by_gid(w.particles);
   {
     const h5::Handle group = h5::create_group(file, "particles");
-    write_columns(group, w.particles, by_gid, is_kept, true);
-    std::vector<Vec3> listed;
-    for (std::size_t k = 0; k < w.search.position.size(); ++k) listed.push_back(w.search.position[by_gid[k]]);
-    write_rows(group, listed_position, "state", listed, true);
+    const FileOrder order = file_order(w.share, w.particles);
+    write_columns(group, w.particles, order, is_kept, true);
+    if (!w.search.position.empty())
+      write_rows(group, listed_position, "state", order,
+                 in_file_order<Vec3>(order, [&](Row row) { return w.search.position[row]; }), true);
   }
-  write_columns(h5::create_group(file, "bonds"), w.bonds, rows_by_ends(w.bonds), is_kept, true);
+  write_columns(h5::create_group(file, "bonds"), w.bonds, file_order(w.share, w.bonds), is_kept, true);
+  const FileOrder order = file_order(w.share, w.contacts);
   const h5::Handle contacts = h5::create_group(file, "contacts");
-  h5::write_attribute(contacts, "rows", std::uint64_t{w.contacts.size});
-  write_columns(contacts, w.contacts, rows_by_ends(w.contacts), is_kept_of_contacts, true);
+  h5::write_attribute(contacts, "rows", std::uint64_t{order.total});
+  write_columns(contacts, w.contacts, order, is_kept_of_contacts, true);
 }
 
-void write_file(const fs::path& path, const CheckpointHead& head, const World& w, const LoadState& state,
+/// Everything else, by one rank.
+void begin_file(const fs::path& path, const CheckpointHead& head, const World& w, const LoadState& state,
                 const LoadResult& result) {
   h5::Handle file = h5::create_file(path.string(), 16);
   h5::write_attribute(file, "format", format);
@@ -61,7 +64,6 @@ void write_file(const fs::path& path, const CheckpointHead& head, const World& w
   h5::write_attribute(file, "case", head.case_text);
   h5::write_attribute(file, "run", std::uint64_t{head.run});
   h5::write_attribute(file, "finished", head.finished);
-  write_world(file, w);
   {
     const h5::Handle numbers = h5::create_group(file, "numbers");
     const NumberWriter write{numbers};
@@ -110,11 +112,21 @@ void read_world(hid_t file, World& w) {
   check_identity(bonds, w.bonds, by_ends);
   read_columns(particles, w.particles, by_gid, changes);
   read_columns(bonds, w.bonds, by_ends, changes);
-  const std::size_t listed = h5::rows_of_dataset(particles, "listed_position", 3);
-  const auto positions = read_rows<Vec3>(particles, "listed_position", listed);
-  w.search.position.resize(listed);
-  for (std::size_t k = 0; k < listed; ++k) w.search.position[by_gid[k]] = positions[k];
+  if (!w.search.position.empty()) {
+    const auto positions = read_rows<Vec3>(particles, "listed_position", by_gid.size());
+    for (std::size_t k = 0; k < by_gid.size(); ++k) w.search.position[by_gid[k]] = positions[k];
+  }
   read_contacts(h5::open_group(file, "contacts"), w);
+}
+
+/// The most that the numbers, and the tables, take in the file.
+std::size_t bytes_of_numbers(const World& w, const LoadResult& result) {
+  return sizeof(CurveRow) * result.record.rows.size() + (sizeof(Crack) + 32) * w.cracks.cracks.size() +
+         (std::size_t{1} << 20);
+}
+std::size_t bytes_of_tables(const World& w) {
+  return column_bytes(w.particles) + column_bytes(w.bonds) + column_bytes(w.contacts) +
+         sizeof(Vec3) * w.search.position.size() + (std::size_t{1} << 20);
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -143,17 +155,28 @@ std::optional<std::string> read_head(const fs::path& path, CheckpointHead& head)
 
 }  // namespace
 
-void write_checkpoint(const fs::path& folder, const CheckpointHead& head, const World& w,
-                      const LoadState& state, const LoadResult& result) {
+void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World& w, const LoadState& state,
+                      const LoadResult& result) {
   h5::be_silent();
+  const Ranks& ranks = w.share.ranks;
   const fs::path file = newest(folder), aside = name_aside(file);
   try {
-    // on a full disk HDF5 may end the whole program when it closes a file: the room is claimed first
-    if (!std::ofstream(aside, std::ios::trunc)) fail_to_write(aside, errno);
-    claim_space(aside, column_bytes(w.particles) + column_bytes(w.bonds) + column_bytes(w.contacts) +
-                           sizeof(CurveRow) * result.record.rows.size() +
-                           (sizeof(Crack) + 32) * w.cracks.cracks.size() + (std::size_t{1} << 20));
-    write_file(aside, head, w, state, result);
+    if (ranks.is_root()) {
+      // on a full disk HDF5 may end the whole program when it closes a file: the room is claimed first
+      const World& whole = whole_of(w);
+      if (!std::ofstream(aside, std::ios::trunc)) fail_to_write(aside, errno);
+      claim_space(aside, bytes_of_numbers(whole, result));
+      begin_file(aside, head, whole, state, result);
+      claim_space(aside, bytes_of_tables(whole));
+    }
+    wait_for_all(ranks);
+    {
+      h5::Handle shared = h5::open_file(aside.string(), ranks);
+      write_world(shared, w);
+      shared.close("close");
+    }
+    wait_for_all(ranks);
+    if (!ranks.is_root()) return;
     seal(aside);
   } catch (const std::exception& error) {
     std::error_code ignored;

@@ -1,9 +1,11 @@
-// Checkpoints: all that a run needs to go on, in one file that any number of threads can take up.
+// Checkpoints: all that a run needs to go on, in one file that any number of threads and ranks can take up.
+// Several ranks write it together, each a part of every column.
 //
 //   DIR/checkpoint.h5          the newest; written aside and renamed, with a checksum behind it
 //   DIR/checkpoint-before.h5   the one before, for the case that the newest is damaged
 //
-//   /                      format, version, case (the resolved TOML), run, finished (summary of the runs before)
+//   /                      format, version, case (the resolved TOML), run, finished (summary of the runs
+//   before)
 //     particles, bonds     columns: identity, history, state, ledger; in order of ids, as in results.h5
 //     contacts             the same, and reference
 //     numbers              everything else, see core/run_numbers.hpp
@@ -30,9 +32,9 @@ struct FoundCheckpoint {
 };
 
 /// Replaces the newest checkpoint, which becomes the one before. A kill at any moment, or a full disk, leaves
-/// at least one that is whole.
+/// at least one that is whole. Called on every rank; what is not in the tables is the root's.
 /// @throws FileTrouble; the checkpoints that were there are then as they were
-void write_checkpoint(const std::filesystem::path& folder, const CheckpointHead& head, const World& world,
+void write_checkpoint(const std::filesystem::path& folder, const CheckpointHead& head, World& world,
                       const LoadState& state, const LoadResult& result);
 
 /// The newest checkpoint that is whole; nothing where there is none.

@@ -71,10 +71,26 @@ hsize_t rows_of_chunk(hsize_t rows) {
 /// before.
 bool is_worth_deflating(const Dataset& dataset) {
   if (dataset.number != Number::real) return true;
-  const std::span values(static_cast<const double*>(dataset.data), dataset.rows * dataset.components);
+  const std::size_t rows = dataset.ranks.alone() ? dataset.rows : dataset.count;
+  const std::span values(static_cast<const double*>(dataset.data), rows * dataset.components);
   std::size_t repeats = 0;
   for (std::size_t i = 1; i < values.size(); ++i) repeats += values[i] == values[i - 1] ? 1 : 0;
-  return 4 * repeats >= values.size();
+  return 4 * sum_of_all(dataset.ranks, repeats) >= dataset.rows * dataset.components;
+}
+
+/// Every rank its rows, all at once: a chunk that two of them share is put together on one.
+void write_part(hid_t set, hid_t memory_type, int rank, const Dataset& dataset) {
+  const char* name = dataset.name.c_str();
+  const std::array<hsize_t, 2> first{dataset.first, 0}, count{dataset.count, dataset.components};
+  const Handle there(H5Dget_space(set), H5Sclose, name);
+  const Handle here(H5Screate_simple(rank, count.data(), nullptr), H5Sclose, name);
+  check(dataset.count > 0
+            ? H5Sselect_hyperslab(there, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr)
+            : H5Sselect_none(there),
+        name);
+  const Handle together(H5Pcreate(H5P_DATASET_XFER), H5Pclose, name);
+  check(H5Pset_dxpl_mpio(together, H5FD_MPIO_COLLECTIVE), name);
+  check(H5Dwrite(set, memory_type, here, there, together, dataset.data), name);
 }
 
 void write_scalar(hid_t object, const char* name, hid_t file_type, hid_t memory_type, const void* value) {
@@ -87,7 +103,8 @@ void write_scalar(hid_t object, const char* name, hid_t file_type, hid_t memory_
 }  // namespace
 
 void be_silent() {
-  // first of all: at the end of the program HDF5 would try again to write what a full disk has refused, and crash
+  // first of all: at the end of the program HDF5 would try again to write what a full disk has refused, and
+  // crash
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -101,6 +118,13 @@ void check(std::int64_t result, std::string_view doing) {
 
 Handle open_file(const std::string& name) {
   return {H5Fopen(name.c_str(), H5F_ACC_RDWR, file_access()), H5Fclose, "open"};
+}
+
+Handle open_file(const std::string& name, const Ranks& ranks) {
+  if (ranks.alone()) return open_file(name);
+  const Handle access = file_access();
+  check(H5Pset_fapl_mpio(access, MPI_COMM_WORLD, MPI_INFO_NULL), "open on all ranks");
+  return {H5Fopen(name.c_str(), H5F_ACC_RDWR, access), H5Fclose, "open"};
 }
 
 Handle open_to_read(const std::string& name) {
@@ -196,7 +220,10 @@ void write_dataset(hid_t group, const Dataset& dataset) {
   const Types types = types_of(dataset.number);
   const Handle set(H5Dcreate2(group, name, types.file, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
                    name);
-  if (dataset.rows > 0) check(H5Dwrite(set, types.memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, dataset.data), name);
+  if (dataset.rows > 0 && dataset.ranks.alone())
+    check(H5Dwrite(set, types.memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, dataset.data), name);
+  else if (dataset.rows > 0)
+    write_part(set, types.memory, rank, dataset);
   if (!dataset.unit.empty()) write_attribute(set, "unit", dataset.unit);
   if (!dataset.role.empty()) write_attribute(set, "role", dataset.role);
   if (!dataset.meaning.empty()) write_attribute(set, "meaning", dataset.meaning);

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/ranks.hpp"
+
 namespace breccia::h5 {
 
 /// What HDF5 could not do, and why; without the name of the file, which the caller knows.
@@ -45,6 +47,8 @@ private:
 /// Opens an existing file to be changed, or makes a new one. Without HDF5's own locks: a run must not stop
 /// because someone looks at its results.
 Handle open_file(const std::string& name);
+/// Of several ranks, on all of them together: whatever is done with the file, all must do, in the same order.
+Handle open_file(const std::string& name, const Ranks& ranks);
 Handle open_to_read(const std::string& name);
 Handle create_file(const std::string& name, unsigned links_of_root);
 
@@ -71,15 +75,17 @@ std::string read_text_attribute(hid_t object, const char* name);
 /// Numbers that a dataset can hold, in memory and in the file.
 enum class Number { real, id, byte };
 
-/// A dataset of rows x components numbers with the attributes unit, role and meaning (left out where they are
-/// empty); checksummed and, where it pays, deflated.
+/// A dataset, or the part of it that one rank writes: rows x components numbers with the attributes unit,
+/// role and meaning (left out where they are empty); checksummed and, where it pays, deflated.
 struct Dataset {
   std::string name;
   std::string_view unit, role, meaning;
   Number number = Number::real;
-  std::size_t rows = 0, components = 1;
+  std::size_t rows = 0, components = 1;  ///< of all ranks
   const void* data = nullptr;
-  bool plain = false;  ///< as it is, in one piece: for files that carry a checksum of their own
+  Ranks ranks = {};                  ///< that have the file open
+  std::size_t first = 0, count = 0;  ///< of several ranks: rows that this one has
+  bool plain = false;                ///< as it is, in one piece: for files that carry a checksum of their own
 };
 void write_dataset(hid_t group, const Dataset& dataset);
 

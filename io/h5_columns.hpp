@@ -6,6 +6,7 @@
 
 #include "core/column.hpp"
 #include "core/column_storage.hpp"
+#include "core/file_order.hpp"
 #include "io/h5.hpp"
 
 namespace breccia {
@@ -21,12 +22,23 @@ constexpr std::size_t components_of = 1;
 template <>
 inline constexpr std::size_t components_of<Vec3> = 3;
 
+/// @param rows  those that this rank writes
 template <class T>
-void write_rows(hid_t group, const ColumnInfo& info, std::string_view role, const std::vector<T>& rows,
-                bool plain) {
+void write_rows(hid_t group, const ColumnInfo& info, std::string_view role, const FileOrder& order,
+                const std::vector<T>& rows, bool plain) {
   const auto write = [&](const void* numbers) {
-    h5::write_dataset(group, {std::string(info.name), info.unit, role, info.meaning, number_of<T>,
-                              rows.size(), components_of<T>, numbers, plain});
+    h5::write_dataset(group, {.name = std::string(info.name),
+                              .unit = info.unit,
+                              .role = role,
+                              .meaning = info.meaning,
+                              .number = number_of<T>,
+                              .rows = order.total,
+                              .components = components_of<T>,
+                              .data = numbers,
+                              .ranks = order.ranks,
+                              .first = order.first,
+                              .count = rows.size(),
+                              .plain = plain});
   };
   if constexpr (std::is_same_v<T, Vec3>) {
     std::vector<double> packed;  // three numbers a row, without what fills a Vec3 up
@@ -41,16 +53,16 @@ void write_rows(hid_t group, const ColumnInfo& info, std::string_view role, cons
 /// One dataset for each column of a wanted role that the scene has, its rows in the given order.
 /// @param plain  as they are: see h5::Dataset
 template <class Table>
-void write_columns(hid_t group, const Table& table, std::span<const Row> order, bool (*wanted)(Role),
+void write_columns(hid_t group, const Table& table, const FileOrder& order, bool (*wanted)(Role),
                    bool plain) {
   table.for_each_column([&](const ColumnInfo& info, const auto& column) {
     using T = ValueOf<decltype(column)>;
     if constexpr (!std::is_same_v<T, Row>) {  // rows of this rank mean nothing outside; all are scratch
-      if (!wanted(info.role) || column.empty()) return;
-      std::vector<T> rows;
-      rows.reserve(order.size());
-      for (const Row row : order) rows.push_back(column[row]);
-      write_rows(group, info, name_of(info.role), rows, plain);
+      if (!wanted(info.role)) return;
+      // a rank without rows has no columns, but must take part where others have them
+      if (!any(order.ranks, !column.empty())) return;
+      const std::vector<T> rows = in_file_order<T>(order, [&](Row row) -> T { return column[row]; });
+      write_rows(group, info, name_of(info.role), order, rows, plain);
     }
   });
 }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/row_order.hpp"
 #include "io/disk_space.hpp"
 #include "io/file_trouble.hpp"
 #include "io/h5_columns.hpp"
@@ -21,26 +20,28 @@ namespace fs = std::filesystem;
 bool stays(Role role) { return role == Role::identity || role == Role::reference; }
 bool changes(Role role) { return role == Role::history || role == Role::state || role == Role::derived; }
 
-void write_states(hid_t group, const BondTable& bonds, std::span<const Row> order) {
-  std::vector<std::uint8_t> states;
-  states.reserve(order.size());
-  for (const Row row : order) states.push_back(static_cast<std::uint8_t>(bond_state(bonds, row)));
+void write_states(hid_t group, const BondTable& bonds, const FileOrder& order) {
+  const auto states = in_file_order<std::uint8_t>(
+      order, [&](Row row) { return static_cast<std::uint8_t>(bond_state(bonds, row)); });
   const ColumnInfo info{"BondState", "state",      "1",
                         Role::state, Need::always, "0 intact, 1 broken in tension, 2 broken in shear"};
-  write_rows(group, info, "derived", states, false);
+  write_rows(group, info, "derived", order, states, false);
 }
 
-/// The most that these columns can take in the file: they are stored as they are where deflate gains nothing.
+/// The most that so many rows of these columns can take in the file: they are stored as they are where
+/// deflate gains nothing.
 template <class Table>
-std::size_t bytes_of(const Table& table, bool (*wanted)(Role)) {
+std::size_t bytes_of(const Table& table, std::size_t rows, bool (*wanted)(Role)) {
   std::size_t bytes = 0;
   table.for_each_column([&](const ColumnInfo& info, const auto& column) {
     using T = ValueOf<decltype(column)>;
     // 8 kB: header, attributes, index of chunks; 1/256: check sums, last rows of chunks, index of many chunks
-    if (wanted(info.role) && !column.empty()) bytes += table.size * sizeof(T) * 257 / 256 + 8192;
+    if (wanted(info.role) && !column.empty()) bytes += rows * sizeof(T) * 257 / 256 + 8192;
   });
   return bytes;
 }
+
+std::size_t own_rows(const Share& share) { return share.own().last - share.own().first; }
 
 constexpr std::size_t bytes_of_group = 65536;  ///< of the groups around the datasets, and their attributes
 constexpr unsigned usual_runs = 64, usual_frames = 128;  ///< more are possible, at a little more risk (below)
@@ -52,15 +53,17 @@ constexpr unsigned usual_runs = 64, usual_frames = 128;  ///< more are possible,
 // is written and flushed behind everything else before anything refers to it. What is overwritten in place
 // after that is the block of links of its parent, which has room for one more.
 
-/// Adds the group parent/name, made for so many links, filled by `write(group)` with `bytes` of columns at
-/// most.
+/// Adds the group parent/name, made for so many links, filled by `write(group)` on all ranks.
+/// @param bytes  of columns at most, on this rank
 template <class Write>
-void append(const fs::path& path, const std::string& parent, const std::string& name, std::size_t bytes,
-            unsigned links, Write&& write) {
+void append(const fs::path& path, const Ranks& ranks, const std::string& parent, const std::string& name,
+            std::size_t bytes, unsigned links, Write&& write) {
   h5::be_silent();
-  claim_space(path, bytes + bytes_of_group);
+  bytes = sum_of_all(ranks, bytes);
+  if (ranks.is_root()) claim_space(path, bytes + bytes_of_group);
+  wait_for_all(ranks);
   try {
-    h5::Handle file = h5::open_file(path.string());
+    h5::Handle file = h5::open_file(path.string(), ranks);
     {
       const h5::Handle group = h5::create_unlinked_group(file, links);
       write(static_cast<hid_t>(group));
@@ -71,7 +74,7 @@ void append(const fs::path& path, const std::string& parent, const std::string& 
   } catch (const h5::Failure& failure) {
     fail_to_write(path, failure.what());
   }
-  flush_to_disk(path);
+  if (ranks.is_root()) flush_to_disk(path);
 }
 
 std::string name_of_run(int run) { return fmt::format("run-{}", run); }
@@ -99,12 +102,13 @@ void create_results(const fs::path& file, std::string_view case_text) {
 }
 
 void begin_run(const fs::path& file, int run, std::span<const std::pair<std::string, double>> attributes,
-               const ParticleTable& particles, const BondTable& bonds) {
-  const std::size_t bytes = bytes_of(particles, stays) + bytes_of(bonds, stays);
-  append(file, "/", name_of_run(run), bytes, usual_frames, [&](hid_t group) {
+               const Share& share, const ParticleTable& particles, const BondTable& bonds) {
+  const std::size_t bytes = bytes_of(particles, own_rows(share), stays) + bytes_of(bonds, bonds.size, stays);
+  append(file, share.ranks, "/", name_of_run(run), bytes, usual_frames, [&](hid_t group) {
     for (const auto& [key, value] : attributes) h5::write_attribute(group, key.c_str(), value);
-    write_columns(h5::create_group(group, "particles"), particles, rows_by_gid(particles), stays, false);
-    write_columns(h5::create_group(group, "bonds"), bonds, rows_by_ends(bonds), stays, false);
+    write_columns(h5::create_group(group, "particles"), particles, file_order(share, particles), stays,
+                  false);
+    write_columns(h5::create_group(group, "bonds"), bonds, file_order(share, bonds), stays, false);
   });
 }
 
@@ -117,17 +121,19 @@ bool has_run(const fs::path& file, int run) {
   }
 }
 
-void append_frame(const fs::path& file, int run, int frame, const FrameStamp& stamp,
+void append_frame(const fs::path& file, int run, int frame, const FrameStamp& stamp, const Share& share,
                   const ParticleTable& particles, const BondTable& bonds) {
   const std::string name = fmt::format("frame-{:03}", frame);
-  const std::size_t bytes = bytes_of(particles, changes) + bytes_of(bonds, changes) + bonds.size + 8192;
-  append(file, name_of_run(run), name, bytes, 2, [&](hid_t group) {
+  const std::size_t bytes = bytes_of(particles, own_rows(share), changes) +
+                            bytes_of(bonds, bonds.size, changes) + bonds.size + 8192;
+  append(file, share.ranks, name_of_run(run), name, bytes, 2, [&](hid_t group) {
     h5::write_attribute(group, "time_s", stamp.time_s);
     h5::write_attribute(group, "step", stamp.step);
     h5::write_attribute(group, "axial_strain", stamp.axial_strain);
-    write_columns(h5::create_group(group, "particles"), particles, rows_by_gid(particles), changes, false);
+    write_columns(h5::create_group(group, "particles"), particles, file_order(share, particles), changes,
+                  false);
     const h5::Handle bond_group = h5::create_group(group, "bonds");
-    const std::vector<Row> order = rows_by_ends(bonds);
+    const FileOrder order = file_order(share, bonds);
     write_columns(bond_group, bonds, order, changes, false);
     write_states(bond_group, bonds, order);
   });

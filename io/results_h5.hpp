@@ -6,9 +6,9 @@
 //     frame-NNN           time_s, step, axial_strain
 //       particles, bonds  columns that change: history, state, derived; bonds/state as a byte
 //
-// One dataset per column (Vec3: N x 3) with the attributes unit, role and meaning; columns of features that
-// the scene leaves out are absent. Particles in order of gid, bonds of (gid_lo, gid_hi): row i is the same
-// body in every frame.
+// Several ranks write it together, each a part of every column. One dataset per column (Vec3: N x 3) with the
+// attributes unit, role and meaning; columns of features that the scene leaves out are absent. Particles in
+// order of gid, bonds of (gid_lo, gid_hi): row i is the same body in every frame.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -19,6 +19,7 @@
 
 #include "core/bond_table.hpp"
 #include "core/particle_table.hpp"
+#include "core/share.hpp"
 
 namespace breccia {
 
@@ -34,19 +35,22 @@ struct FrameStamp {
 void create_results(const std::filesystem::path& file, std::string_view case_text);
 
 /// Adds /run-K with what stays the same during the run; a run of that number that is there is replaced.
+/// Called on every rank.
 /// @param attributes  of the run: names with their units, e.g. {"confinement_Pa", 4.5e6}
+/// @param share       which rows this rank owns
 /// @throws FileTrouble; the runs before it stay readable, on a full disk too
 void begin_run(const std::filesystem::path& file, int run,
-               std::span<const std::pair<std::string, double>> attributes, const ParticleTable& particles,
-               const BondTable& bonds);
+               std::span<const std::pair<std::string, double>> attributes, const Share& share,
+               const ParticleTable& particles, const BondTable& bonds);
 
 /// True when the file has /run-K. @throws FileTrouble when it cannot be read
 bool has_run(const std::filesystem::path& file, int run);
 
 /// Adds /run-K/frame-NNN; a frame of that number that is there, from before a resume, is replaced. The file
-/// is opened and closed in here: between frames it is whole, whatever becomes of the process.
+/// is opened and closed in here: between frames it is whole, whatever becomes of the process. Called on every
+/// rank.
 /// @throws FileTrouble; the frames before it stay readable, on a full disk too
 void append_frame(const std::filesystem::path& file, int run, int frame, const FrameStamp& stamp,
-                  const ParticleTable& particles, const BondTable& bonds);
+                  const Share& share, const ParticleTable& particles, const BondTable& bonds);
 
 }  // namespace breccia

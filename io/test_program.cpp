@@ -124,14 +124,32 @@ struct RunOfSeries {
   Progress& progress;
 };
 
-void begin_files(const RunOfSeries& run, const World& w, const LoadTest& load, bool resumed) {
+/// Readies results.h5 for the frames of a run.
+void begin_frames(const RunOfSeries& run, const World& w, const LoadTest& load, bool resumed) {
   const fs::path results = run.folder / "results.h5";
+  const int number = static_cast<int>(run.k);
   if (run.c.frames == 0) return;
-  if (!fs::exists(results)) create_results(results, run.c.resolved);
+  bool fresh = false;
+  if (run.ranks.is_root()) {
+    if (!fs::exists(results)) create_results(results, run.c.resolved);
+    fresh = !resumed || !has_run(results, number);
+  }
+  if (!any(run.ranks, fresh)) return;
   const std::pair<std::string, double> attributes[] = {
       {"confinement_Pa", load.confinement}, {"alpha", w.alpha}, {"time_step_s", w.dt}};
-  if (!resumed || !has_run(results, static_cast<int>(run.k)))
-    begin_run(results, static_cast<int>(run.k), attributes, w.particles, w.bonds);
+  begin_run(results, number, attributes, w.share, w.particles, w.bonds);
+}
+
+/// One more frame in results.h5, by all ranks, and for ParaView, by the root.
+void write_frame(const RunOfSeries& run, World& w, std::size_t frame, const CurveRow& row) {
+  const int number = static_cast<int>(run.k), at = static_cast<int>(frame);
+  World& whole = bring_together(w);
+  if (run.c.stress) fill_stress_columns(w);
+  append_frame(run.folder / "results.h5", number, at, {w.time, w.step, row.axial_strain}, w.share,
+               w.particles, w.bonds);
+  if (!run.ranks.is_root()) return;
+  if (run.c.stress && !run.ranks.alone()) fill_stress_columns(whole);
+  write_frame_vtp(run.folder / "frames", number, at, whole.time, whole.particles, whole.bonds);
 }
 
 /// True once in `every` seconds.
@@ -150,17 +168,14 @@ auto due_every(double every) {
 RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const std::string& finished,
                    LoadState& state, LoadResult& result) {
   const LoadTest load = load_test(run.c, run.test, run.k);
-  const int number = static_cast<int>(run.k);
   begin(run.progress, title_of(run.c, run.k));
   std::optional<CrackFile> crack_file;
-  if (run.ranks.is_root()) {
-    begin_files(run, w, load, state.stage != Stage::not_begun);
-    if (w.cracks.enabled) {
-      crack_file.emplace(run.folder / fmt::format("cracks-{}.csv", run.k));
-      crack_file->add(std::span(w.cracks.cracks).first(state.cracks_told));
-    }
+  if (run.ranks.is_root() && w.cracks.enabled) {
+    crack_file.emplace(run.folder / fmt::format("cracks-{}.csv", run.k));
+    crack_file->add(std::span(w.cracks.cracks).first(state.cracks_told));
   }
   if (!run.ranks.alone()) w = cut(std::move(w), run.ranks);
+  begin_frames(run, w, load, state.stage != Stage::not_begun);
 
   LoadHooks hooks;
   hooks.interrupted = interrupted;
@@ -168,11 +183,7 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
     tell(run.progress, w, stage, fraction, row);
   };
   hooks.frame = [&](World& world, std::size_t frame, const CurveRow& row) {
-    if (run.c.stress) fill_stress_columns(world);
-    append_frame(run.folder / "results.h5", number, static_cast<int>(frame),
-                 {world.time, world.step, row.axial_strain}, world.particles, world.bonds);
-    write_frame_vtp(run.folder / "frames", number, static_cast<int>(frame), world.time, world.particles,
-                    world.bonds);
+    write_frame(run, world, frame, row);
   };
   if (crack_file) hooks.cracks = [&](std::span<const Crack> cracks) { crack_file->add(cracks); };
   hooks.checkpoint_due = due_every(run.c.checkpoint_every);
@@ -218,8 +229,9 @@ struct WorkDone {
 void refuse_changes(const fs::path& file, const std::string& before, const Case& c) {
   const std::vector<std::string> changed = changed_keys(before, c.resolved);
   if (changed.empty()) return;
-  fail<BadInput>("{}: the case has changed since: {}; resume with the case as it was, or run it anew with --force",
-                 file.string(), fmt::join(changed, "; "));
+  fail<BadInput>(
+      "{}: the case has changed since: {}; resume with the case as it was, or run it anew with --force",
+      file.string(), fmt::join(changed, "; "));
 }
 
 /// @throws BadInput when the case has changed since, naming the keys
@@ -273,7 +285,8 @@ void run_test_program(const CommandLine& line) {
   series.ranks = ranks.count;
   if (found) series.runs = read_runs(found->head.finished);
   Stopped stopped = Stopped::strain;
-  for (std::size_t k = series.runs.size(); k < c.test.confinement.size() && stopped != Stopped::interrupted; ++k) {
+  for (std::size_t k = series.runs.size(); k < c.test.confinement.size() && stopped != Stopped::interrupted;
+       ++k) {
     World w = make_world(ready.assembly, c.materials[k], ready.factor, options);
     if (k == 0) say(progress, step_line(w, c.safety));
     LoadState state;

@@ -166,6 +166,21 @@ inline std::vector<InstructionSet> sets_of_this_machine() {
 inline void drive(World& w, double lower, double upper) {
   w.platens.velocity = {Vec3{0, 0, lower}, Vec3{0, 0, upper}};
 }
+/// 150 packed spheres of alpha 0.8, pressed for 150 steps by platens so fast that bonds break where they may.
+inline World crushed(const Features& asked) {
+  reference::Parameters p;
+  p.alpha = 0.8;
+  const Assembly a = assemble(small_packing(150), small_cylinder(), {}, built_features(law(p), asked), 1);
+  WorldOptions o = options(p);
+  o.features = asked;
+  World w = make_world(a, material_of(p), factor(p), o);
+  for (int k = 0; k < 150; ++k) {
+    drive(w, 6, -6);
+    advance(w);
+  }
+  return w;
+}
+
 /// Pa, of each platen, positive in compression.
 inline std::array<double, 2> platen_stress(const Platens& p) {
   return {-p.force[0].z / p.section, p.force[1].z / p.section};

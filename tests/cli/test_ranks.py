@@ -9,6 +9,9 @@ import subprocess
 import time
 import unittest
 
+import h5py
+import numpy as np
+
 from programs import BIN, CONFINED, ProgramTest, run
 
 GATHER = ("--set", 'run.scatter="gather"')
@@ -69,6 +72,28 @@ class SeveralRanks(ProgramTest):
                 self.check_same(out)
                 self.assertEqual(json.loads((out / "summary.json").read_text())["ranks"], ranks)
                 self.assertEqual(text.count("300 spheres"), 1)
+
+    def test_results_are_the_same_file_whoever_wrote_it(self):
+        written = self.work / "ranks"
+        extra = ("--set", "output.stress=true", "--set", "output.frames=2", "--set", 'test.confinement=["0 MPa"]', "--threads", "1")
+        self.finish(launch(3, "triaxial", self.one, *GATHER, *extra, "--out", written, "--quiet"))
+        alone = run("triaxial", self.one, *GATHER, *extra, "--out", self.out, "--quiet")
+        self.assertEqual(alone.returncode, 0, alone.stderr)
+        with h5py.File(written / "results.h5") as ours, h5py.File(self.out / "results.h5") as theirs:
+            names = []
+            theirs.visit(names.append)
+            self.assertGreater(len(names), 40)
+            for name in names:
+                self.assertEqual(dict(ours[name].attrs), dict(theirs[name].attrs), name)
+                if not isinstance(theirs[name], h5py.Dataset):
+                    continue
+                mine, other = ours[name][()], theirs[name][()]
+                if "stress_" in name:  # summed in the order of a rank's bonds
+                    np.testing.assert_allclose(mine, other, rtol=0, atol=1e-14 * abs(other).max(), err_msg=name)
+                else:
+                    np.testing.assert_array_equal(mine, other, name)
+                self.assertEqual((ours[name].chunks, ours[name].compression, ours[name].fletcher32),
+                                 (theirs[name].chunks, theirs[name].compression, theirs[name].fletcher32), name)
 
     def test_ranks_without_a_sphere(self):
         # 300 spheres have five blocks: two of seven ranks own nothing

@@ -202,7 +202,7 @@ TEST_CASE("outputs: a file that is not HDF5, or is gone, is a FileTrouble in one
   const TemporaryFolder folder;
   const Scene scene;
   const fs::path file = folder.path / "results.h5";
-  const auto append = [&] { append_frame(file, 0, 0, {}, scene.particles, scene.bonds); };
+  const auto append = [&] { append_frame(file, 0, 0, {}, share_alone(scene.particles.size), scene.particles, scene.bonds); };
   CHECK(contains(trouble_of(append), "No such file"));
   write_aside(file, "not HDF5");
   const std::string line = trouble_of(append);
@@ -282,15 +282,15 @@ TEST_CASE("outputs: results.h5 as h5py reads it") {
   const fs::path file = folder.path / "results.h5";
   create_results(file,
                  "[material]\npreset = \"concrete\"\n" + std::string(70000, '#'));  // beyond the old 64 kB
-  begin_run(file, 0, attributes, scene.particles, scene.bonds);
-  append_frame(file, 0, 0, {0.0, 0, 0.0}, scene.particles, scene.bonds);
-  append_frame(file, 0, 1, {1e-3, 10, 1e-4}, scene.particles, scene.bonds);
-  append_frame(file, 0, 1, {2e-3, 20, 2e-4}, scene.particles, scene.bonds);  // as after a resume
+  begin_run(file, 0, attributes, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  append_frame(file, 0, 0, {0.0, 0, 0.0}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  append_frame(file, 0, 1, {1e-3, 10, 1e-4}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  append_frame(file, 0, 1, {2e-3, 20, 2e-4}, share_alone(scene.particles.size), scene.particles, scene.bonds);  // as after a resume
   Features few;
   few.rotation = few.contact_damping = few.plasticity = few.breakage = false;
   const Scene lean(few);
-  begin_run(file, 1, attributes, lean.particles, lean.bonds);
-  append_frame(file, 1, 0, {0.0, 0, 0.0}, lean.particles, lean.bonds);
+  begin_run(file, 1, attributes, share_alone(lean.particles.size), lean.particles, lean.bonds);
+  append_frame(file, 1, 0, {0.0, 0, 0.0}, share_alone(lean.particles.size), lean.particles, lean.bonds);
   check_with_python("h5 '" + file.string() + "'");
 }
 
@@ -308,8 +308,8 @@ TEST_CASE("outputs: a specimen without bonds is written and read") {
   Scene scene;
   scene.bonds.resize(0, {}, 8);
   create_results(folder.path / "results.h5", "");
-  begin_run(folder.path / "results.h5", 0, {}, scene.particles, scene.bonds);
-  append_frame(folder.path / "results.h5", 0, 0, {}, scene.particles, scene.bonds);
+  begin_run(folder.path / "results.h5", 0, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  append_frame(folder.path / "results.h5", 0, 0, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
   write_frame_vtp(folder.path / "frames", 0, 0, 0.0, scene.particles, scene.bonds);
   check_with_python("no-bonds '" + folder.path.string() + "'");
 }
@@ -319,10 +319,10 @@ TEST_CASE("outputs: results.h5 stays within the space it claims, and gives back 
   const fs::path file = folder.path / "results.h5";
   const Scene scene = noise(20000, 40000);
   create_results(file, "");
-  begin_run(file, 0, attributes, scene.particles, scene.bonds);
+  begin_run(file, 0, attributes, share_alone(scene.particles.size), scene.particles, scene.bonds);
   for (int frame = 0; frame < 3; ++frame) {
     const std::uintmax_t before = fs::file_size(file);
-    append_frame(file, 0, frame, {}, scene.particles, scene.bonds);
+    append_frame(file, 0, frame, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
     const double raw = 20000 * 72.0 + 40000 * 49.0;  // bytes of the columns that change
     const double grown = static_cast<double>(fs::file_size(file) - before);
     CHECK(grown > 0.9 * raw);
@@ -337,11 +337,11 @@ TEST_CASE("outputs: on a full disk the earlier frames stay readable, and one lin
   const Scene scene = noise(1000, 2000);
   const fs::path file = disk.path / "results.h5";
   create_results(file, "");
-  begin_run(file, 0, attributes, scene.particles, scene.bonds);
+  begin_run(file, 0, attributes, share_alone(scene.particles.size), scene.particles, scene.bonds);
   int frames = 0;
   std::string line;
   while (frames < 20 && line.empty()) {
-    line = trouble_of([&] { append_frame(file, 0, frames, {}, scene.particles, scene.bonds); });
+    line = trouble_of([&] { append_frame(file, 0, frames, {}, share_alone(scene.particles.size), scene.particles, scene.bonds); });
     if (line.empty()) ++frames;
   }
   CAPTURE(line);
@@ -366,7 +366,7 @@ TEST_CASE("outputs: on a full disk the earlier frames stay readable, and one lin
   fs::remove_all(disk.path / "run-0");
   fs::remove(disk.path / "curve-0.csv");
   REQUIRE(::mount("tmpfs", disk.path.c_str(), "tmpfs", MS_REMOUNT, "size=4m") == 0);
-  append_frame(file, 0, frames, {}, scene.particles, scene.bonds);
+  append_frame(file, 0, frames, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
   check_with_python("frames '" + file.string() + "' " + std::to_string(frames + 1));
 }
 
@@ -379,14 +379,14 @@ TEST_CASE(
   for (int trial = 0; trial < 8; ++trial) {
     const fs::path file = folder.path / (std::to_string(trial) + ".h5");
     create_results(file, "");
-    begin_run(file, 0, attributes, scene.particles, scene.bonds);
+    begin_run(file, 0, attributes, share_alone(scene.particles.size), scene.particles, scene.bonds);
     int written[2];
     REQUIRE(::pipe(written) == 0);
     const pid_t child = ::fork();
     REQUIRE(child >= 0);
     if (child == 0) {
       for (int frame = 0;; ++frame) {
-        append_frame(file, 0, frame, {}, scene.particles, scene.bonds);
+        append_frame(file, 0, frame, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
         if (::write(written[1], "x", 1) != 1) ::_exit(1);
       }
     }
@@ -398,7 +398,7 @@ TEST_CASE(
     ::waitpid(child, nullptr, 0);
     while (const ssize_t more = ::read(written[0], buffer, sizeof buffer)) frames += more;
     ::close(written[0]);
-    append_frame(file, 0, static_cast<int>(frames), {}, scene.particles, scene.bonds);
+    append_frame(file, 0, static_cast<int>(frames), {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
     arguments += " '" + file.string() + "' " + std::to_string(frames + 1);
   }
   check_with_python(arguments);
@@ -409,8 +409,8 @@ TEST_CASE("outputs: more frames and runs than usual") {
   const Scene scene;
   const fs::path file = folder.path / "results.h5";
   create_results(file, "");
-  for (int run = 0; run < 70; ++run) begin_run(file, run, {}, scene.particles, scene.bonds);
-  for (int frame = 0; frame < 140; ++frame) append_frame(file, 0, frame, {}, scene.particles, scene.bonds);
+  for (int run = 0; run < 70; ++run) begin_run(file, run, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  for (int frame = 0; frame < 140; ++frame) append_frame(file, 0, frame, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
   check_with_python("frames '" + file.string() + "' 140");
 }
 

@@ -6,24 +6,8 @@
 #include "tests/scene.hpp"
 
 using namespace breccia;
-namespace ref = breccia::reference;
 
 namespace {
-
-World broken_scene(const Features& asked) {
-  ref::Parameters p;
-  p.alpha = 0.8;
-  const Assembly a = assemble(scene::small_packing(150), scene::small_cylinder(), {},
-                              built_features(scene::law(p), asked), 1);
-  WorldOptions o = scene::options(p);
-  o.features = asked;
-  World w = make_world(a, scene::material_of(p), scene::factor(p), o);
-  for (int k = 0; k < 150; ++k) {
-    scene::drive(w, 6, -6);
-    advance(w);
-  }
-  return w;
-}
 
 /// J, as the state's own function has it.
 double energy_of_bond(const World& w, std::size_t k, double back) {
@@ -47,7 +31,7 @@ bool is_damaged(const BondTable& b, std::size_t k) {
 TEST_CASE(
     "undamaged energy: any range of bonds, every register, with and without features [bond by bond, 1e-13]") {
   for (const Features& asked : {Features{}, Features{.plasticity = false, .breakage = false}}) {
-    const World w = broken_scene(asked);
+    const World w = scene::crushed(asked);
     const BondTable& b = w.bonds;
     std::size_t damaged = 0;
     for (std::size_t k = 0; k < b.size; ++k) damaged += is_damaged(b, k);
