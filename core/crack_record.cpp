@@ -57,7 +57,6 @@ void record_cracks(CrackRecord& record, const BondLaw& law, bool coupled, double
     // of several ranks the bonds that need nothing from elsewhere come first
     std::ranges::sort(notes.room.first(noted), {}, &FreshBreak::bond);
     for (const FreshBreak& was : notes.room.first(noted)) {
-      if (was.bond >= b.size) continue;
       record.cracks.push_back(
           std::visit([&](const auto& l) { return crack_of(l, coupled, was, dt, p, b); }, law));
       record.cracks.back().time = time;

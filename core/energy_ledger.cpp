@@ -103,15 +103,26 @@ struct SkinWork {
   }
 };
 
+BondLosses<double> total_bond_losses(const EnergyLedger& ledger) {
+  BondLosses<double> sum;
+  for (const BondLosses<double>& loss : std::span(ledger.bonds).first(ledger.own_bonds)) add(sum, loss);
+  return sum;
+}
+
+ContactLosses total_contact_losses(const EnergyLedger& ledger) {
+  ContactLosses sum = ledger.earlier_contacts;
+  for (const ContactLosses& loss : std::span(ledger.contacts).first(ledger.own_contacts)) add(sum, loss);
+  return sum;
+}
+
 /// Added up in the order of ranks: other numbers of ranks differ in the last digits.
 Losses losses_of_all(const World& w) {
   const Ranks& ranks = w.share.ranks;
   const Losses mine = losses_of(w.ledger);
   if (ranks.alone()) return mine;
-  std::vector<Losses> all(static_cast<std::size_t>(ranks.count));
-  gather_all(ranks, &mine, std::vector<std::size_t>(all.size(), sizeof(Losses)), all.data());
   Losses sum;
-  for (const Losses& loss : all) add(sum.bonds, loss.bonds), add(sum.contacts, loss.contacts);
+  for (const Losses& loss : gather_elements_everywhere(ranks, std::span(&mine, 1)))
+    add(sum.bonds, loss.bonds), add(sum.contacts, loss.contacts);
   return sum;
 }
 
@@ -180,18 +191,6 @@ void add(BondLosses<double>& sum, const BondLosses<double>& loss) {
 
 void add(ContactLosses& sum, const ContactLosses& loss) {
   sum.viscous += loss.viscous, sum.friction += loss.friction;
-}
-
-BondLosses<double> total_bond_losses(const EnergyLedger& ledger) {
-  BondLosses<double> sum;
-  for (const BondLosses<double>& loss : std::span(ledger.bonds).first(ledger.own_bonds)) add(sum, loss);
-  return sum;
-}
-
-ContactLosses total_contact_losses(const EnergyLedger& ledger) {
-  ContactLosses sum = ledger.earlier_contacts;
-  for (const ContactLosses& loss : std::span(ledger.contacts).first(ledger.own_contacts)) add(sum, loss);
-  return sum;
 }
 
 Losses losses_of(const EnergyLedger& ledger) {

@@ -79,8 +79,6 @@ struct Losses {
 
 /// Of this rank.
 Losses losses_of(const EnergyLedger& ledger);
-BondLosses<double> total_bond_losses(const EnergyLedger& ledger);
-ContactLosses total_contact_losses(const EnergyLedger& ledger);
 void add(BondLosses<double>& sum, const BondLosses<double>& loss);
 void add(ContactLosses& sum, const ContactLosses& loss);
 

@@ -15,16 +15,17 @@ struct Ids {
   auto operator<=>(const Ids&) const = default;
 };
 
-/// Of each part but the first, the ids that it begins with: parts are even to within a few samples.
+/// Of each part but the first, the ids that it begins with. Ranks give samples by their rows, some 256 to a
+/// part, so that parts are even to within a few of them.
 std::vector<Ids> first_ids_of_parts(const Ranks& ranks, std::span<const Ids> mine) {
-  constexpr std::size_t most_samples = 256;
+  const auto parts = static_cast<std::size_t>(ranks.count);
+  const std::size_t total = std::max<std::size_t>(1, sum_of_all(ranks, mine.size()));
+  const std::size_t count = std::min(mine.size(), (256 * parts * mine.size() + total - 1) / total);
   std::vector<Ids> samples;
-  const std::size_t count = std::min(most_samples, mine.size());
   for (std::size_t k = 0; k < count; ++k) samples.push_back(mine[k * mine.size() / count]);
   samples = gather_elements_everywhere(ranks, std::span<const Ids>(samples));
   std::sort(samples.begin(), samples.end());
   std::vector<Ids> firsts;
-  const auto parts = static_cast<std::size_t>(ranks.count);
   for (std::size_t part = 1; part < parts && !samples.empty(); ++part)
     firsts.push_back(samples[part * samples.size() / parts]);
   return firsts;
@@ -51,7 +52,7 @@ FileOrder order_of(const Ranks& ranks, std::vector<Row> own, const IdsOf& ids_of
     from = end;
   }
   order.to.resize(static_cast<std::size_t>(ranks.count), static_cast<std::size_t>(ids.end() - from));
-  order.from = sizes_for_me(ranks, order.to);
+  order.from = sizes_for_me(order.to);
 
   struct Arrival {
     Ids ids;
@@ -59,7 +60,7 @@ FileOrder order_of(const Ranks& ranks, std::vector<Row> own, const IdsOf& ids_of
     auto operator<=>(const Arrival&) const = default;
   };
   std::vector<Ids> came(std::accumulate(order.from.begin(), order.from.end(), std::size_t{0}));
-  swap_elements(ranks, sizeof(Ids), ids.data(), order.to, came.data(), order.from);
+  swap_elements(sizeof(Ids), ids.data(), order.to, came.data(), order.from);
   std::vector<Arrival> arrivals(came.size());
   for (std::size_t k = 0; k < came.size(); ++k) arrivals[k] = {came[k], k};
   sort_on_threads(arrivals.begin(), arrivals.end());

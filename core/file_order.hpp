@@ -33,7 +33,7 @@ std::vector<T> in_file_order(const FileOrder& order, const Value& value) {
   for (const Row row : order.give) given.push_back(value(row));
   if (order.ranks.alone()) return given;
   std::vector<T> came(order.place.size()), part(came.size());
-  swap_elements(order.ranks, sizeof(T), given.data(), order.to, came.data(), order.from);
+  swap_elements(sizeof(T), given.data(), order.to, came.data(), order.from);
   for (std::size_t k = 0; k < came.size(); ++k) part[order.place[k]] = came[k];
   return part;
 }

@@ -217,7 +217,9 @@ void check_balance(const World& w) {
 void check_turns(const World& w) {
   const ParticleTable& p = w.particles;
   const BondTable& b = w.bonds;
-  for (std::size_t k = 0; k < b.size; ++k) {
+  // of several ranks the copies too: the end that is fast may be this one's alone
+  for (std::size_t k = 0; k < b.padded; ++k) {
+    if (b.stiffness[k] == 0.0) continue;  // padding
     const Row lo = b.row_lo[k], hi = b.row_hi[k];
     const Vec3 l = p.position[hi] - p.position[lo];
     if (dot(l, l - w.dt * (p.velocity[hi] - p.velocity[lo])) > 0.0) continue;
@@ -282,13 +284,18 @@ Guards make_guards(const World& w) {
   }
   g.centre = 0.5 * (low + high);
   g.size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  g.fastest = fastest_wave(w);
-  g.shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < w.bonds.size; ++k) g.shortest = std::min(g.shortest, w.bonds.rest_length[k]);
+  const BondTable& b = w.bonds;
+  double extremes[] = {b.size > 0 ? fastest_wave(w) : 0.0, -std::numeric_limits<double>::infinity()};
+  for (std::size_t k = 0; k < b.size; ++k) extremes[1] = std::max(extremes[1], -b.rest_length[k]);
+  largest_of_all(w.share.ranks, extremes);
+  g.fastest = extremes[0] > 0.0 ? extremes[0] : std::numeric_limits<double>::infinity();
+  g.shortest = -extremes[1];
   g.explained = g.highest = std::max(0.0, kinetic_energy(w) - energy_of_layers(w.platens)) + stored_energy(w);
   // each place is rounded at every step; errors of 64 steps in a row, all one way
   const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * g.farthest;
-  for (std::size_t k = 0; k < w.bonds.size; ++k) g.noise += 0.5 * w.bonds.stiffness[k] * rounding * rounding;
+  std::vector<double> blocks;
+  g.noise = sum_pairs(w.share, b, w.options.threads, blocks,
+                      [&](std::size_t k) { return 0.5 * b.stiffness[k] * rounding * rounding; });
   g.platen_work = w.platens.work;
   for (const Row row : w.confinement.rows) g.skin.push_back(w.particles.position[row]);
   g.push = w.confinement.force;
@@ -299,10 +306,8 @@ void bring_skin_together(Guards& g, const World& w) {
   const Ranks& ranks = w.share.ranks;
   if (ranks.alone()) return;
   for (std::vector<Vec3>* noted : {&g.skin, &g.push}) {
-    std::vector<Vec3> mine;
-    for_own_entries(w.share, w.confinement.rows, [&](std::size_t k) { mine.push_back((*noted)[k]); });
-    mine = gather_elements(ranks, std::span<const Vec3>(mine));
-    if (ranks.is_root()) *noted = std::move(mine);
+    std::vector<Vec3> all = gather_own_entries<Vec3>(w.share, w.confinement.rows, *noted);
+    if (ranks.is_root()) *noted = std::move(all);
   }
 }
 
@@ -322,11 +327,9 @@ void check_here(Guards& g, const World& w, double kinetic, double stored) {
 std::string complaint_of_all(const Ranks& ranks, const std::string& mine) {
   if (!any(ranks, !mine.empty())) return {};
   const std::vector<std::size_t> sizes = sizes_of_all(ranks, mine.size());
-  std::string all(std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}), ' ');
-  gather_all(ranks, mine.data(), sizes, all.data());
-  for (const std::size_t size : sizes)
-    if (size > 0) return all.substr(0, size);
-  return {};
+  const std::vector<char> all = gather_elements_everywhere(ranks, std::span(mine.data(), mine.size()));
+  const std::size_t first = *std::ranges::find_if(sizes, [](std::size_t size) { return size > 0; });
+  return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first)};
 }
 
 }  // namespace

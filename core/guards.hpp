@@ -24,7 +24,7 @@ struct Guards {
 /// A run whose ledger is out by so much of the work put in has lost its way.
 inline constexpr double out_of_balance = 0.1;
 
-/// A specimen as it stands now, with the velocities that it has.
+/// A specimen as it stands now, with the velocities that it has. Called on every rank.
 Guards make_guards(const World& world);
 
 /// Brings to the root what each rank's guards have noted of its part of the skin.
@@ -36,7 +36,7 @@ inline constexpr double lost_sizes = 10.0;
 /// The largest sqrt(k_n/m) d0 of all bonds, m their reduced mass: the speed at which a stretch of one runs
 /// along the stiffest of them. A particle as fast would strain its bonds by one, hundreds of times what any
 /// material stands.
-/// @returns m/s
+/// @returns m/s, of this rank's bonds; without bonds infinite
 double fastest_wave(const World& world);
 
 /// How many times the energy that can be there may seem to be there. Velocities stand half a step from the

@@ -130,8 +130,8 @@ void wait_for_all(const Ranks& ranks) {
   if (!ranks.alone()) MPI_Barrier(MPI_COMM_WORLD);
 }
 
-void swap_elements(const Ranks&, std::size_t bytes, const void* mine, std::span<const std::size_t> to,
-                   void* all, std::span<const std::size_t> from) {
+void swap_elements(std::size_t bytes, const void* mine, std::span<const std::size_t> to, void* all,
+                   std::span<const std::size_t> from) {
   const Layout there = layout_of(to), here = layout_of(from);
   MPI_Datatype element;
   MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &element);
@@ -141,7 +141,7 @@ void swap_elements(const Ranks&, std::size_t bytes, const void* mine, std::span<
   MPI_Type_free(&element);
 }
 
-std::vector<std::size_t> sizes_for_me(const Ranks&, std::span<const std::size_t> to) {
+std::vector<std::size_t> sizes_for_me(std::span<const std::size_t> to) {
   std::vector<std::size_t> from(to.size());
   MPI_Alltoall(to.data(), 1, MPI_UINT64_T, from.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
   return from;

@@ -25,7 +25,7 @@ void leave_job();
 /// Ends all ranks of the job at once.
 [[noreturn]] void end_job(int code);
 
-/// Every rank gives its bytes, every rank has all of them, in the order of ranks.
+/// Of several ranks: each gives its bytes, each has all of them, in the order of ranks.
 /// @param bytes  that each rank gives
 void gather_all(const Ranks& ranks, const void* mine, std::span<const std::size_t> bytes, void* all);
 /// The same, on the root alone.
@@ -42,24 +42,24 @@ std::size_t sum_of_all(const Ranks& ranks, std::size_t mine);
 /// Returns when every rank has come here.
 void wait_for_all(const Ranks& ranks);
 
-/// Every rank gives every rank some elements, each of `bytes`; they come in the order of ranks.
+/// Of several ranks: each gives each some elements, every one of `bytes`; they come in the order of ranks.
 /// @param to, from  elements for, and of, each rank
-void swap_elements(const Ranks& ranks, std::size_t bytes, const void* mine, std::span<const std::size_t> to,
-                   void* all, std::span<const std::size_t> from);
-/// How many elements each rank has for this one, where this one has `to` for each.
-std::vector<std::size_t> sizes_for_me(const Ranks& ranks, std::span<const std::size_t> to);
+void swap_elements(std::size_t bytes, const void* mine, std::span<const std::size_t> to, void* all,
+                   std::span<const std::size_t> from);
+/// Of several ranks: how many elements each has for this one, where this one has `to` for each.
+std::vector<std::size_t> sizes_for_me(std::span<const std::size_t> to);
 
 /// Elements of each rank, one behind the other, at the root; empty elsewhere. T is copied as it lies.
 template <class T>
 std::vector<T> gather_elements(const Ranks& ranks, std::span<const T> mine) {
-  std::vector<std::size_t> bytes = sizes_of_all(ranks, mine.size_bytes());
+  const std::vector<std::size_t> bytes = sizes_of_all(ranks, mine.size_bytes());
   const std::size_t total = std::accumulate(bytes.begin(), bytes.end(), std::size_t{0});
   std::vector<T> all(ranks.is_root() ? total / sizeof(T) : 0);
   gather_at_root(ranks, mine.data(), bytes, all.data());
   return all;
 }
 
-/// The same on every rank.
+/// The same on every one of several ranks.
 template <class T>
 std::vector<T> gather_elements_everywhere(const Ranks& ranks, std::span<const T> mine) {
   const std::vector<std::size_t> bytes = sizes_of_all(ranks, mine.size_bytes());
@@ -75,7 +75,7 @@ struct Neighbour {
   std::vector<double> outgoing, incoming;  ///< the numbers of them
 };
 
-/// Fills `send` of each neighbour: what the other side wants to receive of this one.
+/// Of several ranks: fills `send` of each neighbour: what the other side wants to receive of this one.
 /// @param neighbours  with `receive`, for every rank but this one
 void tell_wishes(const Ranks& ranks, std::vector<Neighbour>& neighbours);
 

@@ -97,10 +97,12 @@ BondTable cut_bonds(const BondTable& whole, const PairsOfRank& pairs) {
 
 template <class Table>
 void add_foreign_ends(const Share& s, const Table& t, std::vector<std::vector<Row>>& wanted) {
-  for (std::size_t k = 0; k < t.padded; ++k)
+  for (std::size_t k = 0; k < t.padded; ++k) {
+    if (t.stiffness[k] == 0.0) continue;  // padding holds on to nobody
     for (const Row row : {t.row_lo[k], t.row_hi[k]})
       if (const int owner = s.owner(row); owner != s.ranks.rank)
         wanted[static_cast<std::size_t>(owner)].push_back(row);
+  }
 }
 
 /// Blocks of bonds of which one at least ends in another rank's part.
@@ -141,7 +143,9 @@ template <class Table>
 void gather_columns(const Ranks& ranks, const Table& mine, Rows rows, Table* whole, bool (*wanted)(Role)) {
   const std::vector<std::size_t> sizes = sizes_of_all(ranks, rows.last - rows.first);
   mine.for_each_column([&](const ColumnInfo& info, const auto& column) {
-    if (!wanted(info.role) || column.empty()) return;
+    if (!wanted(info.role)) return;
+    // a rank without rows has no columns, but must take part where others have them
+    if (!any(ranks, !column.empty())) return;
     using T = ValueOf<decltype(column)>;
     std::vector<std::size_t> bytes;
     for (const std::size_t size : sizes) bytes.push_back(size * sizeof(T));
@@ -253,10 +257,7 @@ World& bring_books_together(World& w) {
   World* whole = w.share.whole.get();
   const Ranks& ranks = w.share.ranks;
   gather_ledger(ranks, w.ledger, whole ? &whole->ledger : nullptr);
-  std::vector<Vec3> push;
-  for_own_entries(w.share, w.confinement.rows,
-                  [&](std::size_t k) { push.push_back(w.confinement.force[k]); });
-  push = gather_elements(ranks, std::span<const Vec3>(push));
+  std::vector<Vec3> push = gather_own_entries<Vec3>(w.share, w.confinement.rows, w.confinement.force);
   if (!whole) return w;
   whole->time = w.time;
   whole->step = w.step;

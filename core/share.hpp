@@ -29,7 +29,8 @@ struct Share {
   std::vector<Neighbour> neighbours;
   /// Of several ranks, per block of bonds: true where one ends in another's part.
   std::vector<char> reaching;
-  std::shared_ptr<World> whole;  ///< of several ranks, on the root: what files and messages are made from
+  /// Of several ranks, on the root: what lists of contacts, pictures and messages are made from.
+  std::shared_ptr<World> whole;
 
   Rows own() const {
     const auto r = static_cast<std::size_t>(ranks.rank);
@@ -124,6 +125,14 @@ void for_own_entries(const Share& s, std::span<const Row> list, const Work& work
     return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), row) - list.begin());
   };
   for (std::size_t k = at(mine.first); k < at(mine.last); ++k) work(k);
+}
+
+/// The owned ones of values that stand beside such a list, at the root.
+template <class T>
+std::vector<T> gather_own_entries(const Share& s, std::span<const Row> list, std::span<const T> values) {
+  std::vector<T> mine;
+  for_own_entries(s, list, [&](std::size_t k) { mine.push_back(values[k]); });
+  return gather_elements(s.ranks, std::span<const T>(mine));
 }
 
 /// Over the owned bonds or contacts of a table, sorted by the lower row of their ends, range by range:

@@ -1,6 +1,5 @@
 // The step, as a page of verbs.
 #include <algorithm>
-#include <array>
 
 #include "core/parallel.hpp"
 #include "core/world.hpp"
@@ -69,9 +68,13 @@ void pass_over_bonds(World& w, bool reaching) {
   const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, b.arm_offset, w.particles);
   const BondPassIn in = bond_pass_in(w);
   const BondPassHistory history = bond_pass_history(w);
+  // copies, which lie behind the blocks of owned bonds, break on the rank that owns them
+  const std::size_t owned = LoadBlock::capacity * ledger_blocks(b.size);
   for_ranges(w.bond_plan.ranges, [&](int range) {
     for_blocks(w, range, reaching, [&](std::size_t first, std::size_t last) {
-      w.bond_pass(in, history, first, last, to, notes_of(w.cracks, range));
+      if (first < owned)
+        w.bond_pass(in, history, first, std::min(last, owned), to, notes_of(w.cracks, range));
+      if (last > owned) w.bond_pass(in, history, std::max(first, owned), last, to, nullptr);
     });
   });
 }

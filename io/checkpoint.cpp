@@ -120,9 +120,12 @@ void read_world(hid_t file, World& w) {
 }
 
 /// The most that the numbers, and the tables, take in the file.
-std::size_t bytes_of_numbers(const World& w, const LoadResult& result) {
-  return sizeof(CurveRow) * result.record.rows.size() + (sizeof(Crack) + 32) * w.cracks.cracks.size() +
-         (std::size_t{1} << 20);
+std::size_t bytes_of_numbers(const CheckpointHead& head, const World& w, const LoadState& state,
+                             const LoadResult& result) {
+  NumberCounter count;
+  for_each_number_of_world(w, count);
+  for_each_number_of_test(state, result, count);
+  return count.bytes + head.case_text.size() + head.finished.size() + (std::size_t{1} << 20);
 }
 std::size_t bytes_of_tables(const World& w) {
   return column_bytes(w.particles) + column_bytes(w.bonds) + column_bytes(w.contacts) +
@@ -157,7 +160,7 @@ std::optional<std::string> read_head(const fs::path& path, CheckpointHead& head)
 
 void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World& w, const LoadState& state,
                       const LoadResult& result) {
-  h5::be_silent();
+  h5::prepare();
   const Ranks& ranks = w.share.ranks;
   const fs::path file = newest(folder), aside = name_aside(file);
   try {
@@ -165,7 +168,7 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
       // on a full disk HDF5 may end the whole program when it closes a file: the room is claimed first
       const World& whole = whole_of(w);
       if (!std::ofstream(aside, std::ios::trunc)) fail_to_write(aside, errno);
-      claim_space(aside, bytes_of_numbers(whole, result));
+      claim_space(aside, bytes_of_numbers(head, whole, state, result));
       begin_file(aside, head, whole, state, result);
       claim_space(aside, bytes_of_tables(whole));
     }
@@ -178,13 +181,13 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
     wait_for_all(ranks);
     if (!ranks.is_root()) return;
     seal(aside);
+    flush_to_disk(aside);
   } catch (const std::exception& error) {
     std::error_code ignored;
     fs::remove(aside, ignored);
     if (dynamic_cast<const h5::Failure*>(&error) != nullptr) fail_to_write(file, error.what());
     throw;
   }
-  flush_to_disk(aside);
   std::error_code error;
   if (fs::exists(file, error)) fs::rename(file, before(folder), error);
   if (error) fail_to_write(before(folder), error.value());
@@ -193,7 +196,7 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
 
 std::optional<FoundCheckpoint> find_checkpoint(const fs::path& folder,
                                                const std::function<void(const std::string&)>& say) {
-  h5::be_silent();
+  h5::prepare();
   for (const fs::path& file : {newest(folder), before(folder)}) {
     std::error_code ignored;
     if (!fs::exists(file, ignored)) continue;

@@ -1,5 +1,5 @@
-// How the numbers of core/run_numbers.hpp lie in a checkpoint: a dataset each, a row for each element, doubles or
-// whole numbers. Written and read back to the same bits. Included by io/checkpoint.cpp alone.
+// How the numbers of core/run_numbers.hpp lie in a checkpoint: a dataset each, a row for each element,
+// doubles or whole numbers. Written and read back to the same bits. Included by io/checkpoint.cpp alone.
 #pragma once
 #include <cstring>
 #include <type_traits>
@@ -11,8 +11,8 @@
 
 namespace breccia {
 
-/// An element as `components` numbers of one kind. Structures of doubles are taken as they lie; those of other
-/// things have a specialisation.
+/// An element as `components` numbers of one kind. Structures of doubles are taken as they lie; those of
+/// other things have a specialisation.
 template <class T>
 struct Flat {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(double) == 0 &&
@@ -24,8 +24,7 @@ struct Flat {
 };
 
 template <class T>
-  requires(std::is_integral_v<T> || std::is_enum_v<T>)
-struct Flat<T> {
+requires(std::is_integral_v<T> || std::is_enum_v<T>) struct Flat<T> {
   using Number = std::uint64_t;
   static constexpr std::size_t components = 1;
   static void put(const T& value, std::uint64_t* to) { *to = static_cast<std::uint64_t>(value); }
@@ -131,6 +130,27 @@ private:
                               .components = components,
                               .data = flat.data(),
                               .plain = true});
+  }
+};
+
+/// What all of them take in the file, with the header of a dataset for each.
+struct NumberCounter {
+  std::size_t bytes = 0;
+
+  template <class T, class Allocator>
+  void operator()(const char*, const std::vector<T, Allocator>& values) {
+    add<T>(values.size());
+  }
+  template <class T>
+  void operator()(const char*, const T&) {
+    add<T>(1);
+  }
+
+private:
+  template <class T>
+  void add(std::size_t count) {
+    constexpr std::size_t header = 1024;
+    bytes += header + count * Flat<T>::components * sizeof(typename Flat<T>::Number);
   }
 };
 

@@ -102,8 +102,8 @@ void write_scalar(hid_t object, const char* name, hid_t file_type, hid_t memory_
 
 }  // namespace
 
-void be_silent() {
-  // first of all: at the end of the program HDF5 would try again to write what a full disk has refused, and
+void prepare() {
+  // at the end of the program HDF5 would try again to write what a full disk has refused, and
   // crash
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -124,7 +124,7 @@ Handle open_file(const std::string& name, const Ranks& ranks) {
   if (ranks.alone()) return open_file(name);
   const Handle access = file_access();
   check(H5Pset_fapl_mpio(access, MPI_COMM_WORLD, MPI_INFO_NULL), "open on all ranks");
-  return {H5Fopen(name.c_str(), H5F_ACC_RDWR, access), H5Fclose, "open"};
+  return {H5Fopen(name.c_str(), H5F_ACC_RDWR, access), H5Fclose, "open", true};
 }
 
 Handle open_to_read(const std::string& name) {

@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <cstdint>
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,8 +19,9 @@ struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Stops HDF5 from printing its own stack of errors. Calling it again costs nothing.
-void be_silent();
+/// Before any other call: HDF5 neither prints its own stack of errors nor writes on when the program ends.
+/// Calling it again costs nothing.
+void prepare();
 
 /// @throws Failure with `doing` and HDF5's innermost reason, when `result` is negative
 void check(std::int64_t result, std::string_view doing);
@@ -29,11 +31,16 @@ class Handle {
 public:
   using Close = herr_t (*)(hid_t);
   /// @throws Failure when id is negative, as HDF5's functions return where they fail
-  Handle(hid_t id, Close closer, std::string_view doing) : id_(id), close_(closer) { check(id, doing); }
-  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  /// @param shared  by several ranks: where one of them alone fails, it must not wait for the others to close
+  Handle(hid_t id, Close closer, std::string_view doing, bool shared = false)
+      : id_(id), close_(closer), shared_(shared) {
+    check(id, doing);
+  }
+  Handle(Handle&& other) noexcept
+      : id_(std::exchange(other.id_, -1)), close_(other.close_), shared_(other.shared_) {}
   Handle& operator=(Handle&&) = delete;
   ~Handle() {
-    if (id_ >= 0) close_(id_);
+    if (id_ >= 0 && !(shared_ && std::uncaught_exceptions() > 0)) close_(id_);
   }
   operator hid_t() const { return id_; }
   /// Closes now, and says when that fails: a file is written in earnest only when it is closed.
@@ -42,6 +49,7 @@ public:
 private:
   hid_t id_;
   Close close_;
+  bool shared_;
 };
 
 /// Opens an existing file to be changed, or makes a new one. Without HDF5's own locks: a run must not stop

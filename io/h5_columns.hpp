@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/column.hpp"
-#include "core/column_storage.hpp"
 #include "core/file_order.hpp"
 #include "io/h5.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <system_error>
 #include <vector>
 
@@ -58,7 +57,7 @@ constexpr unsigned usual_runs = 64, usual_frames = 128;  ///< more are possible,
 template <class Write>
 void append(const fs::path& path, const Ranks& ranks, const std::string& parent, const std::string& name,
             std::size_t bytes, unsigned links, Write&& write) {
-  h5::be_silent();
+  h5::prepare();
   bytes = sum_of_all(ranks, bytes);
   if (ranks.is_root()) claim_space(path, bytes + bytes_of_group);
   wait_for_all(ranks);
@@ -82,7 +81,7 @@ std::string name_of_run(int run) { return fmt::format("run-{}", run); }
 }  // namespace
 
 void create_results(const fs::path& file, std::string_view case_text) {
-  h5::be_silent();
+  h5::prepare();
   const fs::path aside = name_aside(file);
   write_aside(aside, "");
   try {
@@ -113,7 +112,7 @@ void begin_run(const fs::path& file, int run, std::span<const std::pair<std::str
 }
 
 bool has_run(const fs::path& file, int run) {
-  h5::be_silent();
+  h5::prepare();
   try {
     return h5::has_link(h5::open_to_read(file.string()), name_of_run(run));
   } catch (const h5::Failure& failure) {

@@ -216,10 +216,6 @@ std::string result_line(const Case& c, std::size_t k, const std::string& test, c
                      run.run_time_s, run.bond_updates_per_s.value_or(0) * 1e-6);
 }
 
-}  // namespace
-
-namespace {
-
 /// What `--resume` finds in the folder of results.
 struct WorkDone {
   std::optional<FoundCheckpoint> checkpoint;
@@ -272,6 +268,7 @@ void run_test_program(const CommandLine& line) {
     return;
   }
 
+  wait_for_all(ranks);  // until nobody reads what was there any more
   begin_results();
   if (!found && ranks.is_root()) {
     claim_run_folder(line.out, line.force || line.resume);

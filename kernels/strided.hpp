@@ -15,10 +15,10 @@ public:
     using value_type = std::remove_const_t<T>;
     using difference_type = std::ptrdiff_t;
     Iterator() = default;
-    Iterator(T* at, std::size_t stride) : at_(at), stride_(static_cast<std::ptrdiff_t>(stride)) {}
-    T& operator*() const { return *at_; }
+    Iterator(const Strided& values, std::size_t row) : values_(values), row_(row) {}
+    T& operator*() const { return values_[row_]; }
     Iterator& operator++() {
-      at_ += stride_;
+      ++row_;
       return *this;
     }
     Iterator operator++(int) {
@@ -26,11 +26,11 @@ public:
       ++*this;
       return before;
     }
-    bool operator==(const Iterator& other) const { return at_ == other.at_; }
+    bool operator==(const Iterator& other) const { return row_ == other.row_; }
 
   private:
-    T* at_ = nullptr;
-    std::ptrdiff_t stride_ = 1;
+    Strided values_;
+    std::size_t row_ = 0;
   };
 
   constexpr Strided() = default;
@@ -50,8 +50,8 @@ public:
   constexpr T* data() const { return first_; }
   constexpr std::size_t stride() const { return stride_; }
   constexpr Strided first(std::size_t rows) const { return {first_, rows, stride_}; }
-  Iterator begin() const { return {first_, stride_}; }
-  Iterator end() const { return {first_ + size_ * stride_, stride_}; }
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size_}; }
 
 private:
   T* first_ = nullptr;
