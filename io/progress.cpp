@@ -28,7 +28,8 @@ void clear(Progress& p) {
 Progress make_progress(bool quiet) {
   Progress p;
   p.quiet = quiet;
-  p.terminal = isatty(STDOUT_FILENO) == 1;
+  // mpirun gives its ranks a terminal even where all they say goes into a file
+  p.terminal = ranks_of_launcher().alone() && isatty(STDOUT_FILENO) == 1;
   return p;
 }
 
