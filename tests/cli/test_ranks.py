@@ -12,7 +12,7 @@ import unittest
 import h5py
 import numpy as np
 
-from programs import BIN, CONFINED, ProgramTest, run
+from programs import BIN, CONFINED, UCS, ProgramTest, run
 
 GATHER = ("--set", 'run.scatter="gather"')
 # as root and with more ranks than cores, as in a container
@@ -102,6 +102,21 @@ class SeveralRanks(ProgramTest):
         alone = run("triaxial", self.one, *short, "--out", self.work / "short")
         self.assertEqual(alone.returncode, 0, alone.stderr)
         ours, theirs = (json.loads((f / "summary.json").read_text())["runs"][0] for f in (self.out, self.work / "short"))
+        self.assertEqual(ours["state_hash"], theirs["state_hash"])
+
+    def test_ranks_without_a_contact(self):
+        # bonds so long that nothing unbonded is near, but around one loose sphere, which is the second rank's
+        with (self.shelf / "packed" / "specimen.csv").open(newline="") as file:
+            spheres = [row for row in csv.DictReader(line for line in file if not line.startswith("#"))]
+        loose = max((row for row in spheres if abs(float(row["z_m"])) < 0.03), key=lambda row: float(row["z_m"]))
+        lines = [",".join([*row.values(), "0" if row is loose else "1"]) for row in spheres]
+        self.write("specimen.csv", "\n".join(["id,x_m,y_m,z_m,r_m,group", *lines, ""]))
+        case = self.write("loose.toml", UCS.replace("[test]", "[bonds]\nrange = 0.35\n[test]").replace("0.006", "0.001"))
+        often = ("--set", 'run.checkpoint_every="1 ms"', "--threads", "1", "--quiet")
+        self.finish(launch(2, "ucs", case, *GATHER, *often, "--out", self.out))
+        alone = run("ucs", case, *GATHER, *often, "--out", self.work / "one")
+        self.assertEqual(alone.returncode, 0, alone.stderr)
+        ours, theirs = (json.loads((f / "summary.json").read_text())["runs"][0] for f in (self.out, self.work / "one"))
         self.assertEqual(ours["state_hash"], theirs["state_hash"])
 
     def test_every_way_of_summing_comes_to_the_same_strength(self):
