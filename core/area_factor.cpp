@@ -23,7 +23,7 @@ double affine_alpha(double fabric, double kappa, Space space) {
   return (4.0 + kappa) / (2.0 + 3.0 * kappa) / fabric;
 }
 
-/// The specimen with alpha = 1: what its ends and skin answer. (B15) (B15) (B15) (B15) (B15) (B15)
+/// The specimen with alpha = 1: what its ends and skin answer. (B15)
 ElasticResponse probe_with(const Assembly& a, const Material& material, double kappa, bool rough,
                            int threads) {
   const BondLaw law = law_of(material, kappa);
@@ -39,11 +39,6 @@ double porosity_alpha(const Assembly& a) {
 }
 
 /// k_s/k_n at which the probe shows the Poisson ratio asked for: secant steps from the affine value.
-/// (B16)
-/// (B16)
-/// (B16)
-/// (B16)
-/// (B16)
 /// (B16)
 double matched_ratio(const Assembly& a, const AreaFactorRequest& r, int threads, ElasticResponse& answer,
                      int& probes) {

@@ -18,8 +18,7 @@ using std::numbers::pi;
 
 enum Part { free_part = 0, lower_part = 1, upper_part = 2 };
 
-/// Which body of the loading a particle belongs to. (B60) (B61) (B62) (B60) (B61) (B62) (B60) (B61)
-/// (B62) (B60) (B61) (B62) (B60) (B61) (B62) (B60) (B61) (B62)
+/// Which body of the loading a particle belongs to. (B60) (B61) (B62)
 struct Holder {
   Grip grip;
   double edge;        ///< m; ends: height where a layer begins; strips: radius where a strip begins
@@ -56,7 +55,7 @@ Holder holder_of(const Body& body, Grip grip, double mean_radius) {
 }
 
 /// Free particles first, then the lower and the upper body; within each along a Hilbert curve.
-/// (B96) (B96) (B96) (B96) (B96) (B96)
+/// (B96)
 std::vector<std::size_t> order_of(const Specimen& specimen, const Holder& part_of) {
   std::vector<Vec3> centres;
   centres.reserve(specimen.spheres.size());

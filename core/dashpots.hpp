@@ -28,7 +28,7 @@ inline double capped_dashpot(double c_n, double stiffness, double dt) {
   return std::min(c_n, dashpot_share * stiffness * dt);
 }
 
-/// c_n/(1 + q dt max(S_i/m_i, S_j/m_j)). (B46) (B46) (B46) (B46) (B46) (B46)
+/// c_n/(1 + q dt max(S_i/m_i, S_j/m_j)). (B46)
 /// @param load  1/s, the larger of both ends' sums of c_n over mass
 inline double summed_dashpot(double c_n, double load, double dt) {
   return c_n / (1.0 + dashpot_share * dt * load);

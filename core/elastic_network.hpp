@@ -67,11 +67,6 @@ void apply_stiffness(const Network<Real>& network, const VectorOf<Real>& displac
 
 /// What the assembly does when its layers are pushed together: the answer of a static linear solve.
 /// (B15)
-/// (B15)
-/// (B15)
-/// (B15)
-/// (B15)
-/// (B15)
 struct ElasticResponse {
   double young_modulus = 0;  ///< Pa, mean platen stress over gauge strain
   double poisson_ratio = 0;  ///< radial gauge over axial gauge

@@ -48,7 +48,7 @@ struct StepWork : MotionWork {
 };
 
 /// What the platen does to a row that it holds: it prescribes z, and x and y where it is rough.
-/// (B49) (B49) (B49) (B49) (B49) (B49)
+/// (B49)
 void add_platen(const World& w, std::size_t row, const Vec3& after, StepWork& s) {
   const ParticleTable& p = w.particles;
   const Vec3& v = p.velocity[row];
@@ -78,8 +78,7 @@ StepWork work_on_held(const World& w, std::size_t row) {
   return s;
 }
 
-/// J, of damage in the normal direction, a function of the state. (B52) (B52) (B52) (B52) (B52)
-/// (B52)
+/// J, of damage in the normal direction, a function of the state. (B52)
 double normal_damage(const World& w) {
   if (!w.features.breakage || w.features.criterion == Criterion::coupled) return 0.0;
   std::vector<double> blocks;

@@ -100,11 +100,6 @@ void note_balance(EnergyLedger& ledger, const EnergyBalance& balance);
 
 /// The larger of imbalance and negative dissipation, over the work put in. 0 while there was none.
 /// (B57)
-/// (B57)
-/// (B57)
-/// (B57)
-/// (B57)
-/// (B57)
 double energy_error(const EnergyLedger& ledger);
 
 }  // namespace breccia

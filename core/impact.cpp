@@ -276,11 +276,6 @@ void integrate(ImpactWorld& w) {
 
 /// A scene at its start: velocities are set back half a step, through which gravity alone has acted.
 /// (B40)
-/// (B40)
-/// (B40)
-/// (B40)
-/// (B40)
-/// (B40)
 ImpactWorld make_world(const ImpactScene& scene, ImpactResult& result) {
   ImpactWorld w{scene, result.particles};
   w.dt = result.time_step;

@@ -13,12 +13,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// 0 to 1 without a jump in speed. (B65) (B65) (B65) (B65) (B65) (B65)
+/// 0 to 1 without a jump in speed. (B65)
 double eased(double t, double duration) {
   return t >= duration ? 1.0 : 0.5 * (1.0 - std::cos(std::numbers::pi * t / duration));
 }
 
-/// s, for a wave to run from end to end. (B65) (B65) (B65) (B65) (B65) (B65)
+/// s, for a wave to run from end to end. (B65)
 double crossing_time(const World& w, const Assembly& a) {
   return a.length() / std::sqrt(w.material.young_modulus / w.material.density);
 }
@@ -120,8 +120,7 @@ void set_pressure(const Run& run, double pressure) {
   if (run.test.loading != Loading::shear) run.w.confinement.pressure = pressure;
 }
 
-/// Stage 1: the pressure rises until the specimen rests under it. (B67) (B67) (B67) (B67) (B67)
-/// (B67)
+/// Stage 1: the pressure rises until the specimen rests under it. (B67)
 /// @returns false when interrupted
 bool press_hydrostatically(Run& run) {
   World& w = run.w;
@@ -167,7 +166,7 @@ bool on_envelope(const Direction& d, const CurveRow& row) {
   return d.sense > 0.0 && row.platen_strain >= d.turned_at;
 }
 
-/// Unloads where the test asks for it, and loads again. (B69) (B69) (B69) (B69) (B69) (B69)
+/// Unloads where the test asks for it, and loads again. (B69)
 void follow(Run& run, const CurveRow& row) {
   const LoadTest& test = run.test;
   Direction& d = run.state.direction;
@@ -182,8 +181,7 @@ void follow(Run& run, const CurveRow& row) {
   }
 }
 
-/// True when the stress has come down from its peak by the fraction asked for. (B70) (B70) (B70)
-/// (B70) (B70) (B70)
+/// True when the stress has come down from its peak by the fraction asked for. (B70)
 bool has_dropped(Run& run, const CurveRow& row) {
   double& peak = run.state.peak;
   const double strength = run.test.loading == Loading::shear ? row.axial_stress_Pa : deviator(row);
@@ -254,8 +252,7 @@ void load(Run& run) {
 }
 
 /// The hydrostatic stage as a test of its own: the pressure rises evenly, at the rate at which an elastic
-/// specimen between platens of the given speed would take it up. (B68) (B68) (B68) (B68) (B68)
-/// (B68)
+/// specimen between platens of the given speed would take it up. (B68)
 void press_evenly(Run& run) {
   World& w = run.w;
   const LoadTest& test = run.test;

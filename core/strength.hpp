@@ -36,11 +36,10 @@ std::vector<CycleSummary> read_cycles(std::span<const CurveRow> rows,
                                       std::span<const std::pair<double, double>> times);
 
 /// The largest axial stress before it first fell by the fraction; nothing when it never did. (B85)
-/// (B85) (B85) (B85) (B85) (B85)
 std::optional<double> stress_at_first_drop(std::span<const CurveRow> rows, double fraction);
 
 /// Slope of the mean stress over the volumetric strain between 5 and 25 % of the last pressure, Pa.
-/// (B86) (B86) (B86) (B86) (B86) (B86)
+/// (B86)
 std::optional<double> bulk_modulus(std::span<const CurveRow> rows);
 
 /// Straight line tau = c + sigma tan phi through the strengths of a direct shear series.
@@ -48,11 +47,6 @@ std::optional<MohrCoulomb> fit_shear_line(std::span<const double> normal_stress,
                                           std::span<const double> strength);
 
 /// Straight line sigma_1 = q + N sigma_3 through the peaks: sin phi = (N - 1)/(N + 1), c = q/(2 sqrt N).
-/// (S4.37)
-/// (S4.37)
-/// (S4.37)
-/// (S4.37)
-/// (S4.37)
 /// (S4.37)
 /// @returns nothing for fewer than two different confinements
 std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement,

@@ -12,7 +12,7 @@ struct Stress {
 };
 
 /// Mean stress of the volume (S5.19): (1/V) sum F (x) l over bonds and contacts, F on lo, l from lo
-/// to hi. Bagi, Mech. Mater. 22 (1996) 165-177.
+/// to hi. (S5.19); Bagi, Mech. Mater. 22 (1996) 165-177.
 Stress mean_stress_tensor(const World& world);
 
 /// (B89): fills the columns stress_normal and stress_shear of the particles, with F (x) arm over a

@@ -33,16 +33,14 @@ Eigen::VectorXd roots_of_masses(const StepScene& s) {
   return by_mass;
 }
 
-/// True unless the bond is broken and too far open to be pressed. (B42) (B42) (B42) (B42) (B42)
-/// (B42)
+/// True unless the bond is broken and too far open to be pressed. (B42)
 bool can_press(const StepScene& s, std::size_t k) {
   if (bond_state(s.bonds, k) == BondState::intact) return true;
   const auto& x = s.particles.position;
   return norm(x[s.bonds.row_hi[k]] - x[s.bonds.row_lo[k]]) <= s.bonds.rest_length[k] + s.reach;
 }
 
-/// dt^2 K/4 + dt C/2 of a bond, or of a contact: rows as of an elastic network. (B42) (B42) (B42)
-/// (B42) (B42) (B42)
+/// dt^2 K/4 + dt C/2 of a bond, or of a contact: rows as of an elastic network. (B42)
 SpringConstants step_constants(const StepScene& s, std::size_t k, double dt) {
   const bool bond = k < s.bonds.size;
   if (bond && !can_press(s, k)) return {0.0, 0.0};

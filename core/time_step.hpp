@@ -59,11 +59,6 @@ double exact_time_step(const StepScene& scene);
 
 /// 2/sqrt of the largest eigenvalue of M^-1 K of each particle while its neighbours are fixed, undamped.
 /// (P12) (P14)
-/// (P12) (P14)
-/// (P12) (P14)
-/// (P12) (P14)
-/// (P12) (P14)
-/// (P12) (P14)
 /// @returns s, per particle; infinity for one that nothing touches
 std::vector<double> own_time_steps(const StepScene& scene);
 

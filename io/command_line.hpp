@@ -1,4 +1,4 @@
-// The command line that all programs share, and how they end.
+// The command line that all programs share, and how they end. DESIGN: what a user meets.
 #pragma once
 #include <filesystem>
 #include <functional>

@@ -55,7 +55,6 @@ inline R secant_ratio(const ExponentialLaw& law, const R& e) {
 }
 
 /// Puts a compressive trial above the envelope k_n L e_max + K2 L (e - e_max) back onto it. (B26)
-/// (B26) (B26) (B26) (B26) (B26)
 template <class R>
 inline R plastic_stretch(const ExponentialLaw& law, const BondConstants<R>& bond, const R& u,
                          const R& before) {

@@ -23,7 +23,7 @@ struct Failure {
   double softening_shear = 0, softening_shear_length = 0;    ///< 1, m
 };
 
-/// Limits of a bond whose strengths are stresses. (P42) (P42) (P42) (P42) (P42) (P42)
+/// Limits of a bond whose strengths are stresses. (P42)
 template <class R>
 inline BondLimits<R> limits_of(const Failure& failure, const BondConstants<R>& bond) {
   return {R(failure.tensile_strength) * bond.strength_area, R(failure.shear_strength) * bond.strength_area};

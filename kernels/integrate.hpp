@@ -15,8 +15,7 @@ struct GlobalDamping {
   double translation = 0, rotation = 0;
 };
 
-/// F - alpha |F| v/|v|; F where v is zero. (P39) (P40) (P39) (P40) (P39) (P40) (P39) (P40) (P39)
-/// (P40) (P39) (P40)
+/// F - alpha |F| v/|v|; F where v is zero. (P39) (P40)
 inline Vec3 damped(const Vec3& force, const Vec3& velocity, double alpha) {
   const double speed2 = dot(velocity, velocity);
   if (!(speed2 > 0.0)) return force;
@@ -47,8 +46,7 @@ using WorkOfFree = MotionWork (*)(const Motion& m, std::size_t first, std::size_
                                   const GlobalDamping& damping);
 WorkOfFree work_of_free_for(InstructionSet set);
 
-/// Motion that a body's rows share: z is prescribed; x and y too, unless they are free. (B64) (B64)
-/// (B64) (B64) (B64) (B64)
+/// Motion that a body's rows share: z is prescribed; x and y too, unless they are free. (B64)
 struct HeldMotion {
   Vec3 velocity;              ///< m/s
   bool lateral_free = false;  ///< x and y follow the forces
@@ -58,7 +56,7 @@ struct HeldMotion {
 void integrate_held(const Motion& m, std::size_t first, std::size_t last, double dt,
                     const GlobalDamping& damping, const HeldMotion& held);
 
-/// I = factor m r^2: of a sphere or a disc. (B2) (B2) (B2) (B2) (B2) (B2)
+/// I = factor m r^2: of a sphere or a disc. (B2)
 inline constexpr double sphere_inertia_factor = 0.4, disc_inertia_factor = 0.5;
 
 /// Moment of inertia, kg m^2.

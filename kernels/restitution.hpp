@@ -15,8 +15,7 @@
 
 namespace breccia {
 
-/// Rebound speed over approach speed of a contact that never pulls. (B33) (B33) (B33) (B33) (B33)
-/// (B33)
+/// Rebound speed over approach speed of a contact that never pulls. (B33)
 /// @param xi  fraction of critical damping, 0 or more
 inline double restitution_of_damping(double xi) {
   if (xi < 1.0) {
