@@ -45,7 +45,7 @@ Reading read(World& w, const Instruments& in) {
   r.radial_strain =
       in.lateral.rows.empty() ? CurveRow::untracked : in.sign * (gauge_now(w, in.lateral) - in.zeros.lateral);
   r.axial_stress = in.sign * axial_stress(w.platens);
-  // across a disc strains are not uniform: no volume follows from them (B79) (B79)
+  // across a disc strains are not uniform: no volume follows from them (B79)
   r.volumetric_strain = in.grip == Grip::strips ? CurveRow::untracked
                                                 : r.axial_strain + in.lateral_directions * r.radial_strain;
   r.mismatch = mismatch(w.platens);

@@ -29,6 +29,7 @@ struct KdemLaw {
     KdemLaw law;
     const double alpha = m.own.at("normal_factor"), beta = m.own.at("shear_factor");
     law.young = alpha * m.young_modulus;  // (S5.7)
+    // (S5.7)
     law.shear_ratio = beta / alpha * shear_ratio;
     law.failure = failure_of(m, law.young, law.shear_ratio);
     return law;

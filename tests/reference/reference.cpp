@@ -215,7 +215,7 @@ void update_contact(const Parameters& p, Contact& c, Particle& i, Particle& j, d
 // --- Section 7: global damping
 // ------------------------------------------------------------------------------------
 
-Vec3 damped(const Vec3& F, const Vec3& v, double factor) {  // (P39, P40)
+Vec3 damped(const Vec3& F, const Vec3& v, double factor) {  // (P39) (P40)
   return norm(v) > 0 ? F - (factor * norm(F) / norm(v)) * v : F;
 }
 

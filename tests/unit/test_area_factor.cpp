@@ -89,7 +89,7 @@ TEST_CASE("area factor: porosity gives 40 P/N_c, a number is taken as it is [(P2
   CHECK(P == doctest::Approx(0.26).epsilon(1e-6));
   const AreaFactor f = find_area_factor(a, request(AlphaRule::porosity), 1);
   CHECK(f.alpha == doctest::Approx(40 * P / N_c).epsilon(1e-12));
-  CHECK(f.alpha == doctest::Approx(0.97).epsilon(0.1));  // MODEL: on the concrete mesh
+  CHECK(f.alpha == doctest::Approx(0.97).epsilon(0.1));  // on the concrete mesh
   CHECK(find_area_factor(a, request(AlphaRule::number), 1).alpha == 0.79);
 }
 
