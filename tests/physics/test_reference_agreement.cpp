@@ -215,8 +215,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "reference: gather gives the same bits with 1, 2, 3, 5 threads [(B94), state hash equal]") {
+TEST_CASE("reference: gather gives the same bits with 1, 2, 3, 5 threads [(B94), state hash equal]") {
   for (const auto& [spheres, count] :
        {std::pair{std::size_t{100}, steps},
         {std::size_t{2600}, 60}}) {  // loops beyond bonds are cut above 2048 rows

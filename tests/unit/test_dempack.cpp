@@ -275,7 +275,7 @@ constexpr Features uncoupled = features_of(Criterion::uncoupled), coupled = feat
 }  // namespace
 
 TEST_CASE(
-    "dempack/normal: slopes, unloading, through zero, softening, damage kept [(P53) (P46), closed form, 1e-12]") {
+    "dempack/normal: slopes, unloading, through zero, softening, damage kept [(P53), closed form, 1e-12]") {
   const Parameters p = tough();
   std::vector<Claim> claims;
   add_compression(p, claims);
@@ -286,7 +286,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "dempack/shear: softening, Coulomb line, broken bonds and their friction [(P46) (P45), closed form, 1e-12]") {
+    "dempack/shear: softening, Coulomb line, broken bonds and their friction [(P45), closed form, 1e-12]") {
   const Parameters p = tough();
   std::vector<Claim> claims;
   add_shear(p, claims);
@@ -483,8 +483,7 @@ TEST_CASE("dempack/mohr-coulomb: tension lowers the shear strength, pressure rai
   hold<mohr_coulomb>(p, claims);
 }
 
-TEST_CASE(
-    "dempack/toggles: no breakage and no plasticity is a spring, either alone is kept [(P29), 1e-12]") {
+TEST_CASE("dempack/toggles: no breakage and no plasticity is a spring, either alone is kept [(P29), 1e-12]") {
   const Parameters p = tough();
   std::vector<Claim> spring, plastic;
   for (const Bond& b : several_bonds(p)) {
