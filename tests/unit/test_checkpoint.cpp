@@ -4,12 +4,12 @@
 
 #include <fstream>
 
-#include "core/error.hpp"
-#include "core/state_hash.hpp"
-#include "io/case_change.hpp"
-#include "io/checkpoint.hpp"
-#include "io/file_checksum.hpp"
-#include "io/summary.hpp"
+#include "core/base/error.hpp"
+#include "core/tables/state_hash.hpp"
+#include "io/cases/changed_keys.hpp"
+#include "io/results/checkpoint.hpp"
+#include "io/files/checksum.hpp"
+#include "io/results/summary_json.hpp"
 #include "tests/scene.hpp"
 #include "tests/unit/scratch_folder.hpp"
 

@@ -1,7 +1,7 @@
 // Gauges on displacement fields that are known.
 #include <doctest/doctest.h>
 
-#include "core/gauges.hpp"
+#include "core/elastic/gauges.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

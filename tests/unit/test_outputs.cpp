@@ -16,13 +16,13 @@
 #include <sstream>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/row_order.hpp"
-#include "io/curve.hpp"
-#include "io/results_h5.hpp"
-#include "io/summary.hpp"
-#include "io/vtp.hpp"
-#include "io/write_aside.hpp"
+#include "core/base/error.hpp"
+#include "core/tables/row_order.hpp"
+#include "io/results/curve_csv.hpp"
+#include "io/results/results_h5.hpp"
+#include "io/results/summary_json.hpp"
+#include "io/results/vtp.hpp"
+#include "io/files/atomic_write.hpp"
 
 namespace fs = std::filesystem;
 using namespace breccia;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/share.hpp"
+#include "core/ranks/partition.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
