@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/base/threads.hpp"
 #include "core/base/random.hpp"
+#include "core/base/threads.hpp"
 
 namespace breccia {
 namespace {

@@ -7,10 +7,25 @@
 
 namespace breccia {
 
-enum class Phase { search, confinement, halo, bonds, gather, contacts, platens, ledger, integrate, measure, output, checkpoint, count };
+enum class Phase {
+  search,
+  confinement,
+  halo,
+  bonds,
+  gather,
+  contacts,
+  platens,
+  ledger,
+  integrate,
+  measure,
+  output,
+  checkpoint,
+  count
+};
 
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names{
-    "search", "confinement", "halo", "bonds", "gather", "contacts", "platens", "ledger", "integrate", "measure", "output", "checkpoint"};
+    "search",  "confinement", "halo",      "bonds",   "gather", "contacts",
+    "platens", "ledger",      "integrate", "measure", "output", "checkpoint"};
 
 struct Phases {
   std::array<double, static_cast<std::size_t>(Phase::count)> seconds{};

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/base/error.hpp"
 #include "core/bonding/bond_area.hpp"
 #include "core/geometry/cell_list.hpp"
-#include "core/base/error.hpp"
 #include "core/geometry/space_curve.hpp"
 #include "kernels/loops/bond_pass.hpp"
 

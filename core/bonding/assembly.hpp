@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/tables/bond_table.hpp"
-#include "core/tables/particle_table.hpp"
 #include "core/base/scene_options.hpp"
 #include "core/geometry/specimen.hpp"
+#include "core/tables/bond_table.hpp"
+#include "core/tables/particle_table.hpp"
 
 namespace breccia {
 

@@ -1,7 +1,7 @@
 #include "core/bonding/mantle_area.hpp"
 
-#include "core/geometry/body_walls.hpp"
 #include "core/base/error.hpp"
+#include "core/geometry/body_walls.hpp"
 #include "core/geometry/voronoi_cells.hpp"
 
 namespace breccia {

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "core/tables/particle_table.hpp"
 #include "core/base/scene_options.hpp"
 #include "core/geometry/specimen.hpp"
+#include "core/tables/particle_table.hpp"
 
 namespace breccia {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/geometry/cell_list.hpp"
 #include "core/base/threads.hpp"
+#include "core/geometry/cell_list.hpp"
 
 namespace breccia {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/bonding/assembly.hpp"
-#include "core/tables/contact_table.hpp"
-#include "core/ranks/scatter_plan.hpp"
 #include "core/ranks/partition.hpp"
+#include "core/ranks/scatter_plan.hpp"
+#include "core/tables/contact_table.hpp"
 
 namespace breccia {
 
@@ -20,7 +20,7 @@ struct ContactSearch {
   int check_every = 16;          ///< steps
   std::uint64_t next_check = 0;  ///< step
   std::uint64_t rebuilds = 0;
-  Column<Vec3> position;        ///< m, of the particles when the list was made
+  Column<Vec3> position;             ///< m, of the particles when the list was made
   std::vector<Index> first_partner;  ///< per particle: rows bonded to it, rising
   std::vector<Row> partners;
 };

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/elastic/elastic_network.hpp"
 #include "core/base/error.hpp"
 #include "core/bonding/law_of_material.hpp"
+#include "core/elastic/elastic_network.hpp"
 
 namespace breccia {
 namespace {

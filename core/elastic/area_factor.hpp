@@ -1,8 +1,8 @@
 // alpha: the factor on the bonds' areas that gives the specimen the stiffness asked for.
 // docs/model.md, "Bonds".
 #pragma once
-#include "core/bonding/assembly.hpp"
 #include "core/base/scene_options.hpp"
+#include "core/bonding/assembly.hpp"
 #include "kernels/laws/material.hpp"
 
 namespace breccia {

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <optional>
 
-#include "core/elastic/elastic_network.hpp"
 #include "core/base/largest_eigenvalue.hpp"
 #include "core/base/threads.hpp"
+#include "core/elastic/elastic_network.hpp"
 #include "kernels/loops/integrate.hpp"
 
 namespace breccia {

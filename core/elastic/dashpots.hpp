@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/scene_options.hpp"
 #include "core/tables/bond_table.hpp"
 #include "core/tables/contact_table.hpp"
 #include "core/tables/particle_table.hpp"
-#include "core/base/scene_options.hpp"
 
 namespace breccia {
 

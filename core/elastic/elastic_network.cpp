@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "core/elastic/gauges.hpp"
 #include "core/base/threads.hpp"
+#include "core/elastic/gauges.hpp"
 
 namespace breccia {
 namespace {

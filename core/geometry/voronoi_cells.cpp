@@ -7,9 +7,9 @@
 #include <numeric>
 #include <tuple>
 
-#include "core/geometry/body_walls.hpp"
 #include "core/base/error.hpp"
 #include "core/base/threads.hpp"
+#include "core/geometry/body_walls.hpp"
 
 namespace breccia {
 namespace {

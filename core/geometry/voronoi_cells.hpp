@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "core/tables/column.hpp"
 #include "core/base/scene_options.hpp"
 #include "core/geometry/specimen.hpp"
+#include "core/tables/column.hpp"
 
 namespace breccia {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/geometry/cell_list.hpp"
 #include "core/base/error.hpp"
+#include "core/geometry/cell_list.hpp"
 #include "kernels/laws/restitution.hpp"
 
 namespace breccia {

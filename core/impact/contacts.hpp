@@ -51,7 +51,7 @@ double step_demand(const ContactSlopes& slopes, double dt);
 
 /// Both lists of candidates, renewed when particles have used up the skin.
 struct ImpactSearch {
-  double skin = 0;             ///< m
+  double skin = 0;        ///< m
   Column<Vec3> position;  ///< m, when the lists were made
   std::uint64_t rebuilds = 0;
 };

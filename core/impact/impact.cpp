@@ -4,12 +4,12 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/geometry/cell_list.hpp"
 #include "core/base/error.hpp"
+#include "core/geometry/cell_list.hpp"
 #include "core/impact/contacts.hpp"
-#include "kernels/loops/integrate.hpp"
 #include "kernels/laws/linear_contact.hpp"
 #include "kernels/laws/rolling_friction.hpp"
+#include "kernels/loops/integrate.hpp"
 
 namespace breccia {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/loading/error_estimate.hpp"
-#include "core/tables/state_hash.hpp"
 #include "core/loading/strength.hpp"
+#include "core/tables/state_hash.hpp"
 
 namespace breccia {
 namespace {
@@ -132,7 +132,8 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   for (std::size_t k = 0; k < phase_names.size(); ++k)
     run.phases_s.emplace_back(phase_names[k], w.phases.seconds[k]);
   const double updates = static_cast<double>(w.bonds.size) * static_cast<double>(w.step);
-  run.bond_updates_per_s = updates / (result.run_time - w.phases[Phase::output] - w.phases[Phase::checkpoint]);
+  run.bond_updates_per_s =
+      updates / (result.run_time - w.phases[Phase::output] - w.phases[Phase::checkpoint]);
   run.bond_pass_per_s = updates / (w.phases[Phase::bonds] + w.phases[Phase::gather]);
   if (w.ledger.enabled) run.energy_error = energy_error(w.ledger);
   run.state_hash = state_hash(w.particles, w.bonds);

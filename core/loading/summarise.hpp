@@ -1,7 +1,7 @@
 // What a run of a laboratory test came to, taken from its curve and its world.
 #pragma once
-#include "core/loading/protocol.hpp"
 #include "core/loading/findings.hpp"
+#include "core/loading/protocol.hpp"
 
 namespace breccia {
 

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
-#include "core/packing/region.hpp"
 #include "core/packing/genesis.hpp"
 #include "core/packing/neighbours.hpp"
+#include "core/packing/region.hpp"
 #include "core/packing/relax.hpp"
 #include "core/packing/sizes.hpp"
 

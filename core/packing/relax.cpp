@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/packing/neighbours.hpp"
 #include "core/base/threads.hpp"
+#include "core/packing/neighbours.hpp"
 
 namespace breccia::packing {
 namespace {

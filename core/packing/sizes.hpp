@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "core/packing/packing.hpp"
 #include "core/base/random.hpp"
+#include "core/packing/packing.hpp"
 
 namespace breccia::packing {
 

@@ -4,10 +4,10 @@
 #pragma once
 #include <vector>
 
+#include "core/ranks/partition.hpp"
 #include "core/tables/bond_table.hpp"
 #include "core/tables/contact_table.hpp"
 #include "core/tables/particle_table.hpp"
-#include "core/ranks/partition.hpp"
 
 namespace breccia {
 

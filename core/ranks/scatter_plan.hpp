@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "core/tables/particle_table.hpp"
 #include "core/base/scene_options.hpp"
 #include "core/ranks/partition.hpp"
+#include "core/tables/particle_table.hpp"
 #include "kernels/loops/scatter.hpp"
 
 namespace breccia {
@@ -15,8 +15,8 @@ namespace breccia {
 struct ScatterPlan {
   ScatterKind kind = ScatterKind::private_sums;
   int ranges = 1;
-  std::size_t rows = 0;             ///< bonds, padding included
-  std::size_t batch = 1;            ///< ranges begin at multiples of this
+  std::size_t rows = 0;        ///< bonds, padding included
+  std::size_t batch = 1;       ///< ranges begin at multiples of this
   Column<Index> to_lo, to_hi;  ///< empty where they equal the rows of the ends
   /// private sums: shared particle k adds slots[first_slot[k] ... first_slot[k + 1]), in the order of ranges
   std::vector<Index> shared, first_slot, slots;

@@ -4,9 +4,9 @@
 #include <limits>
 #include <numbers>
 
-#include "core/elastic/elastic_network.hpp"
-#include "core/bonding/law_of_material.hpp"
 #include "core/base/threads.hpp"
+#include "core/bonding/law_of_material.hpp"
+#include "core/elastic/elastic_network.hpp"
 #include "kernels/loops/bond_energy.hpp"
 
 namespace breccia {

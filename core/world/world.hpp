@@ -1,22 +1,22 @@
 // Everything that a run moves: tables, boundary, search, constants. Made from an assembly, advanced by
 // `step`.
 #pragma once
-#include "core/elastic/area_factor.hpp"
-#include "core/bonding/assembly.hpp"
-#include "core/boundary/platens_and_confinement.hpp"
-#include "core/boundary/contact_search.hpp"
-#include "core/world/crack_record.hpp"
-#include "core/elastic/dashpots.hpp"
-#include "core/world/energy_ledger.hpp"
-#include "core/elastic/mass_scaling.hpp"
-#include "core/tables/mixed_precision.hpp"
 #include "core/base/timers.hpp"
-#include "core/ranks/scatter_plan.hpp"
+#include "core/bonding/assembly.hpp"
+#include "core/boundary/contact_search.hpp"
+#include "core/boundary/platens_and_confinement.hpp"
+#include "core/elastic/area_factor.hpp"
+#include "core/elastic/dashpots.hpp"
+#include "core/elastic/mass_scaling.hpp"
 #include "core/ranks/partition.hpp"
+#include "core/ranks/scatter_plan.hpp"
+#include "core/tables/mixed_precision.hpp"
+#include "core/world/crack_record.hpp"
+#include "core/world/energy_ledger.hpp"
 #include "core/world/stable_step.hpp"
+#include "kernels/laws/material.hpp"
 #include "kernels/loops/bond_pass.hpp"
 #include "kernels/loops/integrate.hpp"
-#include "kernels/laws/material.hpp"
 #include "kernels/loops/undamaged_energy.hpp"
 
 namespace breccia {

@@ -79,7 +79,9 @@ int run_body(const std::string& program, int threads, const std::function<void()
   Ranks ranks = ranks_of_launcher();
   if (!ranks.alone() && !several_ranks)
     return ranks.is_root()
-               ? end(program, fmt::format("{} ranks asked for; this program runs on one (use --threads)", ranks.count), 2)
+               ? end(program,
+                     fmt::format("{} ranks asked for; this program runs on one (use --threads)", ranks.count),
+                     2)
                : 2;
   ranks = join_job();
   try {
@@ -119,12 +121,16 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   app.footer(keys.empty() ? describe_keys(name) : keys);
   if (const auto code = read_command_line(app, argc, argv)) return *code;
   if (line.out.empty()) line.out = std::filesystem::path("out") / line.case_file.stem();
-  return run_body(program, line.threads, [&] {
-    if (line.resume && line.force)
-      fail<BadInput>("--resume, --force: one keeps the results that are there, the other replaces them; give one");
-    line.ranks = ranks_of_launcher();
-    body(line);
-  }, several_ranks);
+  return run_body(
+      program, line.threads,
+      [&] {
+        if (line.resume && line.force)
+          fail<BadInput>(
+              "--resume, --force: one keeps the results that are there, the other replaces them; give one");
+        line.ranks = ranks_of_launcher();
+        body(line);
+      },
+      several_ranks);
 }
 
 int run_laboratory_test(const std::string& name, const std::string& about, int argc, char** argv,

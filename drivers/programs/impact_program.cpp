@@ -6,10 +6,10 @@
 
 #include "core/base/error.hpp"
 #include "io/cases/impact_case.hpp"
+#include "io/files/atomic_write.hpp"
+#include "io/files/run_folder.hpp"
 #include "io/results/impact_results.hpp"
 #include "io/results/progress.hpp"
-#include "io/files/run_folder.hpp"
-#include "io/files/atomic_write.hpp"
 
 namespace breccia {
 namespace {

@@ -6,20 +6,20 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/loading/summarise.hpp"
 #include "core/world/stress.hpp"
+#include "drivers/programs/prepare_specimen.hpp"
 #include "io/cases/changed_keys.hpp"
+#include "io/files/atomic_write.hpp"
+#include "io/files/run_folder.hpp"
 #include "io/results/checkpoint.hpp"
 #include "io/results/cracks_csv.hpp"
 #include "io/results/curve_csv.hpp"
 #include "io/results/explain.hpp"
-#include "drivers/programs/prepare_specimen.hpp"
 #include "io/results/results_h5.hpp"
-#include "io/files/run_folder.hpp"
-#include "core/loading/summarise.hpp"
 #include "io/results/summary_json.hpp"
-#include "io/text/text_file.hpp"
 #include "io/results/vtp.hpp"
-#include "io/files/atomic_write.hpp"
+#include "io/text/text_file.hpp"
 
 namespace breccia {
 namespace {

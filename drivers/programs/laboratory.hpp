@@ -1,8 +1,8 @@
 // The programs of the laboratory tests: a specimen, one run per confinement, the results.
 #pragma once
 #include "core/loading/protocol.hpp"
-#include "io/cases/case.hpp"
 #include "drivers/programs/command_line.hpp"
+#include "io/cases/case.hpp"
 
 namespace breccia {
 

@@ -4,14 +4,14 @@
 
 #include <chrono>
 
-#include "core/geometry/cell_list.hpp"
 #include "core/base/error.hpp"
+#include "core/geometry/cell_list.hpp"
 #include "core/packing/genesis.hpp"
-#include "io/cases/case.hpp"
-#include "io/specimens/read_specimen.hpp"
 #include "drivers/programs/prepare_specimen.hpp"
-#include "io/files/run_folder.hpp"
+#include "io/cases/case.hpp"
 #include "io/files/atomic_write.hpp"
+#include "io/files/run_folder.hpp"
+#include "io/specimens/read_specimen.hpp"
 
 namespace breccia {
 namespace {

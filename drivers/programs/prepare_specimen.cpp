@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "core/elastic/elastic_network.hpp"
 #include "core/base/error.hpp"
 #include "core/bonding/law_of_material.hpp"
 #include "core/bonding/section_area.hpp"
+#include "core/elastic/elastic_network.hpp"
 #include "io/cases/keys_material.hpp"
 #include "io/specimens/read_specimen.hpp"
 #include "kernels/loops/bond_pass.hpp"

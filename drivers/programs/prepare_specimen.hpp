@@ -1,7 +1,7 @@
 // From a case to a bonded specimen: read or packed, put in place, checked, bonded.
 #pragma once
-#include "core/elastic/area_factor.hpp"
 #include "core/bonding/assembly.hpp"
+#include "core/elastic/area_factor.hpp"
 #include "io/cases/case.hpp"
 #include "io/results/progress.hpp"
 

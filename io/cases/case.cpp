@@ -6,8 +6,8 @@
 #include "io/cases/accuracy.hpp"
 #include "io/cases/keys_material.hpp"
 #include "io/cases/keys_write.hpp"
-#include "io/text/suggest.hpp"
 #include "io/specimens/read_specimen.hpp"
+#include "io/text/suggest.hpp"
 
 namespace breccia {
 namespace {

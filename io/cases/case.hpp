@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
-#include "core/packing/packing.hpp"
 #include "core/base/scene_options.hpp"
 #include "core/geometry/specimen.hpp"
+#include "core/packing/packing.hpp"
 #include "kernels/laws/material.hpp"
 
 namespace breccia {

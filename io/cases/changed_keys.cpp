@@ -39,10 +39,12 @@ std::vector<std::string> changed_keys(const std::string& before, const std::stri
   for (const auto& [key, value] : new_values) {
     const auto old = old_values.find(key);
     if (may_differ(key) || (old != old_values.end() && old->second == value)) continue;
-    changed.push_back(fmt::format("{} = {}, was {}", key, value, old == old_values.end() ? "absent" : old->second));
+    changed.push_back(
+        fmt::format("{} = {}, was {}", key, value, old == old_values.end() ? "absent" : old->second));
   }
   for (const auto& [key, value] : old_values)
-    if (!may_differ(key) && !new_values.contains(key)) changed.push_back(fmt::format("{} absent, was {}", key, value));
+    if (!may_differ(key) && !new_values.contains(key))
+      changed.push_back(fmt::format("{} absent, was {}", key, value));
   return changed;
 }
 

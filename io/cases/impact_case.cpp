@@ -4,9 +4,9 @@
 #include <charconv>
 
 #include "core/base/error.hpp"
+#include "io/cases/impact_keys.hpp"
 #include "io/cases/keys_value.hpp"
 #include "io/cases/keys_write.hpp"
-#include "io/cases/impact_keys.hpp"
 #include "io/text/suggest.hpp"
 #include "io/text/text_file.hpp"
 

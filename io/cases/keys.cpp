@@ -310,7 +310,8 @@ constexpr std::array keys{
         .kind = Kind::word,
         .standard = "explicit",
         .words = "explicit capped summed",
-        .meaning = "capped, summed: dashpots held back where they shorten the step; strengths change by a few %",
+        .meaning =
+            "capped, summed: dashpots held back where they shorten the step; strengths change by a few %",
         .store = [](C& c, const R& r) { c.damping.scheme = scheme_of(r.word); }},
     Key{.name = "damping.translation",
         .standard = "0.1",

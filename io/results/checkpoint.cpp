@@ -7,15 +7,15 @@
 #include <system_error>
 
 #include "core/base/error.hpp"
-#include "core/world/resume.hpp"
-#include "core/tables/row_order.hpp"
 #include "core/loading/saved_state.hpp"
-#include "io/results/checkpoint_numbers.hpp"
-#include "io/files/disk_space.hpp"
-#include "io/files/checksum.hpp"
-#include "io/files/write_error.hpp"
-#include "io/results/h5_columns.hpp"
+#include "core/tables/row_order.hpp"
+#include "core/world/resume.hpp"
 #include "io/files/atomic_write.hpp"
+#include "io/files/checksum.hpp"
+#include "io/files/disk_space.hpp"
+#include "io/files/write_error.hpp"
+#include "io/results/checkpoint_numbers.hpp"
+#include "io/results/h5_columns.hpp"
 
 namespace breccia {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/tables/column.hpp"
 #include "core/ranks/file_order.hpp"
+#include "core/tables/column.hpp"
 #include "io/results/h5.hpp"
 
 namespace breccia {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "io/files/atomic_write.hpp"
 #include "io/files/disk_space.hpp"
 #include "io/files/write_error.hpp"
 #include "io/results/h5_columns.hpp"
-#include "io/files/atomic_write.hpp"
 
 namespace breccia {
 namespace {

@@ -17,9 +17,9 @@
 #include <string_view>
 #include <utility>
 
+#include "core/ranks/partition.hpp"
 #include "core/tables/bond_table.hpp"
 #include "core/tables/particle_table.hpp"
-#include "core/ranks/partition.hpp"
 
 namespace breccia {
 

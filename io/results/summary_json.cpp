@@ -165,7 +165,8 @@ std::size_t finished_runs(const std::filesystem::path& file) {
   const Json all = Json::parse(in, nullptr, false);
   if (!all.is_object() || !all.contains("runs") || !all["runs"].is_array()) return 0;
   std::size_t finished = 0;
-  for (const Json& run : all["runs"]) finished += run.is_object() && run.value("stopped_by", "interrupted") != "interrupted";
+  for (const Json& run : all["runs"])
+    finished += run.is_object() && run.value("stopped_by", "interrupted") != "interrupted";
   return finished;
 }
 

@@ -13,8 +13,8 @@
 
 #include "core/base/error.hpp"
 #include "core/tables/row_order.hpp"
-#include "io/results/pvd.hpp"
 #include "io/files/atomic_write.hpp"
+#include "io/results/pvd.hpp"
 
 namespace breccia {
 namespace {

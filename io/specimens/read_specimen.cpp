@@ -4,9 +4,9 @@
 #include <cctype>
 
 #include "core/base/error.hpp"
-#include "io/text/suggest.hpp"
 #include "io/specimens/read_csv.hpp"
 #include "io/specimens/read_mdpa.hpp"
+#include "io/text/suggest.hpp"
 #include "io/text/text_file.hpp"
 
 namespace breccia {

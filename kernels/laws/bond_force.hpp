@@ -1,7 +1,7 @@
 // The force of one bond: kinematics, the law, damping.
 #pragma once
-#include "kernels/laws/pair_kinematics.hpp"
 #include "kernels/laws/bond_law.hpp"
+#include "kernels/laws/pair_kinematics.hpp"
 
 namespace breccia {
 

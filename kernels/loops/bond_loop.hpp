@@ -10,8 +10,8 @@
 #include "kernels/loops/bond_column.hpp"
 #include "kernels/loops/bond_ledger.hpp"
 #include "kernels/loops/bond_pass.hpp"
-#include "kernels/math/lane_rows.hpp"
 #include "kernels/loops/scatter_block.hpp"
+#include "kernels/math/lane_rows.hpp"
 
 namespace breccia::BRECCIA_ISA {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "kernels/laws/bond_laws.hpp"
 #include "kernels/loops/bond_ledger.hpp"
-#include "kernels/math/instruction_set.hpp"
 #include "kernels/loops/scatter.hpp"
+#include "kernels/math/instruction_set.hpp"
 
 namespace breccia {
 

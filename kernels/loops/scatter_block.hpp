@@ -4,8 +4,8 @@
 #pragma once
 #include <atomic>
 
-#include "kernels/math/four.hpp"
 #include "kernels/loops/scatter.hpp"
+#include "kernels/math/four.hpp"
 
 namespace breccia {
 namespace {

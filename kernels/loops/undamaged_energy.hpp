@@ -3,8 +3,8 @@
 #pragma once
 #include <span>
 
-#include "kernels/math/instruction_set.hpp"
 #include "kernels/loops/scatter.hpp"
+#include "kernels/math/instruction_set.hpp"
 
 namespace breccia {
 

@@ -8,12 +8,12 @@
 #include <numbers>
 #include <string>
 
-#include "core/geometry/body_walls.hpp"
-#include "core/bonding/bond_area.hpp"
 #include "core/base/error.hpp"
-#include "core/bonding/mantle_area.hpp"
 #include "core/base/random.hpp"
+#include "core/bonding/bond_area.hpp"
+#include "core/bonding/mantle_area.hpp"
 #include "core/bonding/section_area.hpp"
+#include "core/geometry/body_walls.hpp"
 #include "core/geometry/voronoi_cells.hpp"
 #include "io/specimens/read_specimen.hpp"
 #include "tests/scene.hpp"

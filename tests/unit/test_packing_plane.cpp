@@ -10,9 +10,9 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/packing/genesis.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/region.hpp"
-#include "core/packing/genesis.hpp"
 #include "core/packing/sizes.hpp"
 
 using namespace breccia;

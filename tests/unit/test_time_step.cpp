@@ -4,10 +4,10 @@
 
 #include <numeric>
 
-#include "core/elastic/elastic_network.hpp"
 #include "core/base/error.hpp"
 #include "core/base/largest_eigenvalue.hpp"
 #include "core/elastic/critical_step.hpp"
+#include "core/elastic/elastic_network.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/bonding/assembly.hpp"
-#include "core/studies/layouts/wall_time.hpp"
 #include "core/packing/packing.hpp"
+#include "core/studies/layouts/wall_time.hpp"
 
 namespace breccia {
 namespace {

@@ -3,11 +3,11 @@
 #include <functional>
 #include <vector>
 
+#include "core/base/median_and_range.hpp"
 #include "core/studies/layouts/byte_count.hpp"
 #include "core/studies/layouts/layout_run.hpp"
 #include "core/studies/layouts/operation_count.hpp"
 #include "core/studies/layouts/roofline.hpp"
-#include "core/base/median_and_range.hpp"
 
 namespace breccia {
 

@@ -6,9 +6,9 @@
 #include <atomic>
 #include <vector>
 
+#include "core/base/threads.hpp"
 #include "core/studies/layouts/machine_rates.hpp"
 #include "core/studies/layouts/wall_time.hpp"
-#include "core/base/threads.hpp"
 
 namespace breccia {
 namespace {

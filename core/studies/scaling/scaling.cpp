@@ -6,9 +6,9 @@
 #include <chrono>
 #include <numeric>
 
+#include "core/base/process_memory.hpp"
 #include "core/loading/protocol.hpp"
 #include "core/packing/packing.hpp"
-#include "core/base/process_memory.hpp"
 #include "core/tables/state_hash.hpp"
 
 namespace breccia {

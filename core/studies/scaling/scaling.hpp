@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/base/median_and_range.hpp"
 #include "core/elastic/area_factor.hpp"
 #include "core/loading/curve_row.hpp"
-#include "core/base/median_and_range.hpp"
 #include "core/world/world.hpp"
 
 namespace breccia {
@@ -54,8 +54,8 @@ ScalingSpecimen make_scaling_specimen(std::size_t spheres, const Material& mater
 struct ScalingRun {
   ScalingPoint point;
   int ranks = 1;
-  std::size_t halo_rows = 0;  ///< of particles that a rank gets from others at every step, the most
-  double imbalance = 0;       ///< bonds that a rank computes, the most over the mean, less 1
+  std::size_t halo_rows = 0;          ///< of particles that a rank gets from others at every step, the most
+  double imbalance = 0;               ///< bonds that a rank computes, the most over the mean, less 1
   std::size_t bonds = 0, broken = 0;  ///< broken: at the end
   std::size_t steps = 0;              ///< in each block
   std::vector<double> seconds;        ///< wall time of each block, whole steps: what a test spends on them

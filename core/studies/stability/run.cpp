@@ -5,10 +5,10 @@
 #include <random>
 #include <span>
 
-#include "core/elastic/area_factor.hpp"
 #include "core/base/error.hpp"
-#include "core/loading/guards.hpp"
 #include "core/bonding/law_of_material.hpp"
+#include "core/elastic/area_factor.hpp"
+#include "core/loading/guards.hpp"
 #include "core/studies/stability/exact_limit.hpp"
 
 namespace breccia {

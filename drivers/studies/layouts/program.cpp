@@ -7,9 +7,9 @@
 #include "drivers/programs/command_line.hpp"
 #include "drivers/studies/layouts/options.hpp"
 #include "drivers/studies/layouts/results.hpp"
-#include "io/results/progress.hpp"
-#include "io/files/run_folder.hpp"
 #include "drivers/studies/study_options.hpp"
+#include "io/files/run_folder.hpp"
+#include "io/results/progress.hpp"
 
 namespace breccia {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "core/base/error.hpp"
 #include "drivers/programs/command_line.hpp"
-#include "io/text/suggest.hpp"
 #include "drivers/studies/study_options.hpp"
+#include "io/text/suggest.hpp"
 
 namespace breccia {
 namespace {

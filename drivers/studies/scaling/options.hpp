@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/studies/scaling/scaling.hpp"
 #include "core/base/scatter_name.hpp"
+#include "core/studies/scaling/scaling.hpp"
 
 namespace breccia {
 

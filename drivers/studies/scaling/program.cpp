@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "drivers/programs/command_line.hpp"
-#include "io/results/progress.hpp"
-#include "io/files/run_folder.hpp"
 #include "drivers/studies/scaling/results.hpp"
 #include "drivers/studies/study_options.hpp"
+#include "io/files/run_folder.hpp"
+#include "io/results/progress.hpp"
 
 namespace breccia {
 namespace {
@@ -66,7 +66,8 @@ void run_study(const ScalingOptions& options) {
 int run_scaling_program(int argc, char** argv) {
   ScalingOptions options;
   if (const auto code = read_scaling_options(argc, argv, options)) return *code;
-  return run_body("breccia-scaling", options.threads.back(), [&] { run_study(options); }, true);
+  return run_body(
+      "breccia-scaling", options.threads.back(), [&] { run_study(options); }, true);
 }
 
 }  // namespace breccia

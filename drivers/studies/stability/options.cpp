@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "drivers/programs/command_line.hpp"
-#include "io/text/suggest.hpp"
 #include "drivers/studies/study_options.hpp"
+#include "io/text/suggest.hpp"
 
 namespace breccia {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "core/base/threads.hpp"
 #include "drivers/programs/command_line.hpp"
-#include "io/results/progress.hpp"
-#include "io/files/run_folder.hpp"
 #include "drivers/studies/stability/options.hpp"
 #include "drivers/studies/stability/results.hpp"
 #include "drivers/studies/study_options.hpp"
+#include "io/files/run_folder.hpp"
+#include "io/results/progress.hpp"
 
 namespace breccia {
 namespace {

@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "io/files/atomic_write.hpp"
 #include "io/files/write_error.hpp"
 #include "io/text/text_file.hpp"
-#include "io/files/atomic_write.hpp"
 
 namespace breccia {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "drivers/programs/command_line.hpp"
-#include "io/text/suggest.hpp"
 #include "drivers/studies/study_options.hpp"
+#include "io/text/suggest.hpp"
 
 namespace breccia {
 namespace {

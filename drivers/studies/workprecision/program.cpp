@@ -7,13 +7,13 @@
 
 #include "core/base/error.hpp"
 #include "drivers/programs/command_line.hpp"
-#include "io/results/progress.hpp"
-#include "io/files/run_folder.hpp"
 #include "drivers/studies/workprecision/journal.hpp"
 #include "drivers/studies/workprecision/options.hpp"
 #include "drivers/studies/workprecision/results.hpp"
 #include "drivers/studies/workprecision/runs.hpp"
 #include "io/files/atomic_write.hpp"
+#include "io/files/run_folder.hpp"
+#include "io/results/progress.hpp"
 
 namespace breccia {
 namespace {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <set>
 
-#include "io/text/text_table.hpp"
 #include "drivers/studies/workprecision/results.hpp"
+#include "io/text/text_table.hpp"
 
 namespace breccia {
 namespace {
