@@ -6,7 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/distributed/gather.hpp"
+#include "core/distributed/halo.hpp"
 #include "core/loading/instruments.hpp"
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/energy_accounting.hpp"
+#include "core/world/sync.hpp"
 
 namespace breccia {
 namespace {
@@ -34,7 +40,7 @@ CurveRow state_row(World& w) {
   row.broken_shear = static_cast<double>(broken.shear);
   row.kinetic_J = kinetic_energy(w);
   if (w.ledger.enabled) {
-    const EnergyBalance energies = balance(w);
+    const EnergyBalance energies = energy_balance(w);
     record_balance(w.ledger, energies);
     row.stored_J = energies.stored;
     row.dissipated_J = energies.dissipated();

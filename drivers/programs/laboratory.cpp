@@ -6,7 +6,10 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/distributed/distribute.hpp"
+#include "core/distributed/gather.hpp"
 #include "core/loading/summarise.hpp"
+#include "core/world/make_world.hpp"
 #include "core/world/stress.hpp"
 #include "drivers/programs/prepare_specimen.hpp"
 #include "io/cases/changed_keys.hpp"

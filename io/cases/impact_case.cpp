@@ -68,7 +68,8 @@ void apply_set(TomlNode& root, const std::string& text) {
 Reading standard_reading(const Key& key) {
   if (key.kind != Kind::quantities) return read_default(key, program);
   Reading reading;
-  for (const std::string& number : split_words(key.default_text)) reading.numbers.push_back(std::stod(number));
+  for (const std::string& number : split_words(key.default_text))
+    reading.numbers.push_back(std::stod(number));
   return reading;
 }
 

@@ -7,9 +7,10 @@
 #include <system_error>
 
 #include "core/base/error.hpp"
+#include "core/distributed/gather.hpp"
 #include "core/loading/saved_state.hpp"
+#include "core/stepping/resume.hpp"
 #include "core/tables/row_order.hpp"
-#include "core/world/resume.hpp"
 #include "io/files/atomic_write.hpp"
 #include "io/files/checksum.hpp"
 #include "io/files/disk_space.hpp"

@@ -40,7 +40,9 @@ std::size_t bytes_of(const Table& table, std::size_t rows, bool (*wanted)(Role))
   return bytes;
 }
 
-std::size_t owned_rows(const Partition& partition) { return partition.owned().last - partition.owned().first; }
+std::size_t owned_rows(const Partition& partition) {
+  return partition.owned().last - partition.owned().first;
+}
 
 constexpr std::size_t bytes_of_group = 65536;  ///< of the groups around the datasets, and their attributes
 constexpr unsigned usual_runs = 64, usual_frames = 128;  ///< more are possible, at a little more risk (below)
@@ -102,7 +104,8 @@ void create_results(const fs::path& file, std::string_view case_text) {
 
 void begin_run(const fs::path& file, int run, std::span<const std::pair<std::string, double>> attributes,
                const Partition& partition, const ParticleTable& particles, const BondTable& bonds) {
-  const std::size_t bytes = bytes_of(particles, owned_rows(partition), stays) + bytes_of(bonds, bonds.size, stays);
+  const std::size_t bytes =
+      bytes_of(particles, owned_rows(partition), stays) + bytes_of(bonds, bonds.size, stays);
   append(file, partition.ranks, "/", name_of_run(run), bytes, usual_frames, [&](hid_t group) {
     for (const auto& [key, value] : attributes) h5::write_attribute(group, key.c_str(), value);
     write_columns(h5::create_group(group, "particles"), particles, file_order(partition, particles), stays,
@@ -120,8 +123,8 @@ bool has_run(const fs::path& file, int run) {
   }
 }
 
-void append_frame(const fs::path& file, int run, int frame, const FrameStamp& stamp, const Partition& partition,
-                  const ParticleTable& particles, const BondTable& bonds) {
+void append_frame(const fs::path& file, int run, int frame, const FrameStamp& stamp,
+                  const Partition& partition, const ParticleTable& particles, const BondTable& bonds) {
   const std::string name = fmt::format("frame-{:03}", frame);
   const std::size_t bytes = bytes_of(particles, owned_rows(partition), changes) +
                             bytes_of(bonds, bonds.size, changes) + bonds.size + 8192;

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -3,8 +3,11 @@
 #include <doctest/doctest.h>
 
 #include "core/base/error.hpp"
-#include "core/loading/stability_checks.hpp"
 #include "core/loading/protocol.hpp"
+#include "core/loading/stability_checks.hpp"
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

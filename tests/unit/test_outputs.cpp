@@ -285,8 +285,10 @@ TEST_CASE("outputs: results.h5 as h5py reads it") {
   create_results(file,
                  "[material]\npreset = \"concrete\"\n" + std::string(70000, '#'));  // beyond the old 64 kB
   begin_run(file, 0, attributes, serial_partition(scene.particles.size), scene.particles, scene.bonds);
-  append_frame(file, 0, 0, {0.0, 0, 0.0}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
-  append_frame(file, 0, 1, {1e-3, 10, 1e-4}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
+  append_frame(file, 0, 0, {0.0, 0, 0.0}, serial_partition(scene.particles.size), scene.particles,
+               scene.bonds);
+  append_frame(file, 0, 1, {1e-3, 10, 1e-4}, serial_partition(scene.particles.size), scene.particles,
+               scene.bonds);
   append_frame(file, 0, 1, {2e-3, 20, 2e-4}, serial_partition(scene.particles.size), scene.particles,
                scene.bonds);  // as after a resume
   Features few;
@@ -393,7 +395,8 @@ TEST_CASE(
     REQUIRE(child >= 0);
     if (child == 0) {
       for (int frame = 0;; ++frame) {
-        append_frame(file, 0, frame, {}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
+        append_frame(file, 0, frame, {}, serial_partition(scene.particles.size), scene.particles,
+                     scene.bonds);
         if (::write(written[1], "x", 1) != 1) ::_exit(1);
       }
     }
@@ -405,8 +408,8 @@ TEST_CASE(
     ::waitpid(child, nullptr, 0);
     while (const ssize_t more = ::read(written[0], buffer, sizeof buffer)) frames += more;
     ::close(written[0]);
-    append_frame(file, 0, static_cast<int>(frames), {}, serial_partition(scene.particles.size), scene.particles,
-                 scene.bonds);
+    append_frame(file, 0, static_cast<int>(frames), {}, serial_partition(scene.particles.size),
+                 scene.particles, scene.bonds);
     arguments += " '" + file.string() + "' " + std::to_string(frames + 1);
   }
   check_with_python(arguments);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/ranks/partition.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -9,7 +9,13 @@
 #include "core/bonding/law_of_material.hpp"
 #include "core/elastic/area_factor.hpp"
 #include "core/loading/stability_checks.hpp"
+#include "core/stepping/step.hpp"
 #include "core/studies/stability/exact_limit.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/loop_views.hpp"
+#include "core/world/make_world.hpp"
+#include "core/world/stable_step.hpp"
+#include "core/world/sync.hpp"
 
 namespace breccia {
 namespace {
