@@ -19,7 +19,7 @@ World small_world() {
 
 }  // namespace
 
-TEST_CASE("share: ranks own whole blocks, all rows once, and the same work to within a block") {
+TEST_CASE("partition: ranks own whole blocks, all rows once, and the same work to within a block") {
   const World w = small_world();
   for (const int count : {1, 2, 3, 5, 40}) {
     std::size_t rows = 0;
@@ -43,7 +43,7 @@ TEST_CASE("share: ranks own whole blocks, all rows once, and the same work to wi
         12.0 * static_cast<double>(s.block));
 }
 
-TEST_CASE("share: owned rows of a part are those of both") {
+TEST_CASE("partition: owned rows of a part are those of both") {
   Partition s = serial_partition(1000);
   s.bounds = {0, 128, 640, 1000};
   s.ranks = {1, 3};
