@@ -497,6 +497,7 @@ std::vector<Key> keys_of_laws() {
       key.dimension = dimension_of(parameter.unit);
       key.range = parameter.above ? more_than(parameter.low) : at_least(parameter.low);
       key.law = law.name;
+      key.standard = parameter.standard;
       key.meaning = names.emplace_back(fmt::format("law {}: {}", law.name, parameter.meaning));
       own.push_back(key);
     }
