@@ -1,8 +1,8 @@
 // Laboratory tests on a specimen of 500 spheres: what a user would get, small enough for every day.
 #include <doctest/doctest.h>
 
-#include "core/load_test.hpp"
-#include "core/strength.hpp"
+#include "core/loading/protocol.hpp"
+#include "core/loading/strength.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "core/state_hash.hpp"
+#include "core/tables/state_hash.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

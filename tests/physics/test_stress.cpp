@@ -2,8 +2,8 @@
 // a specimen in a rigid sleeve.
 #include <doctest/doctest.h>
 
-#include "core/stress.hpp"
-#include "kernels/bond_energy.hpp"
+#include "core/world/stress.hpp"
+#include "kernels/loops/bond_energy.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/vec3.hpp"
+#include "kernels/math/vec3.hpp"
 
 namespace breccia::reference {
 

@@ -1,7 +1,7 @@
 // alpha by its four rules, and the probe that corrects it.
 #include <doctest/doctest.h>
 
-#include "core/elastic_network.hpp"
+#include "core/elastic/elastic_network.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

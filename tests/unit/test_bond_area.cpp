@@ -8,14 +8,14 @@
 #include <numbers>
 #include <string>
 
-#include "core/body_walls.hpp"
-#include "core/bond_area.hpp"
-#include "core/error.hpp"
-#include "core/mantle_area.hpp"
-#include "core/random.hpp"
-#include "core/section_area.hpp"
-#include "core/voronoi_cells.hpp"
-#include "io/read_specimen.hpp"
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
+#include "core/bonding/bond_area.hpp"
+#include "core/bonding/mantle_area.hpp"
+#include "core/bonding/section_area.hpp"
+#include "core/geometry/body_walls.hpp"
+#include "core/geometry/voronoi_cells.hpp"
+#include "io/specimens/read_specimen.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "core/state_hash.hpp"
+#include "core/tables/state_hash.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -1,7 +1,7 @@
 // What acts on a specimen from outside: pressure on the mantle, platens, their servo.
 #include <doctest/doctest.h>
 
-#include "kernels/integrate.hpp"
+#include "kernels/loops/integrate.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -1,7 +1,7 @@
 // The laws of KDEM and of the contact bond: stiffnesses, strengths, friction; what the world makes of them.
 #include <doctest/doctest.h>
 
-#include "core/law_of_material.hpp"
+#include "core/bonding/law_of_material.hpp"
 #include "tests/follow.hpp"
 #include "tests/scene.hpp"
 

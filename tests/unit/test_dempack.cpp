@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "kernels/bond_energy.hpp"
+#include "kernels/loops/bond_energy.hpp"
 #include "tests/follow.hpp"
 #include "tests/scene.hpp"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "kernels/exponential.hpp"
+#include "kernels/laws/exponential.hpp"
 #include "tests/follow.hpp"
 
 using namespace breccia;

@@ -1,7 +1,7 @@
 // Gauges on displacement fields that are known.
 #include <doctest/doctest.h>
 
-#include "core/gauges.hpp"
+#include "core/elastic/gauges.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -15,7 +15,8 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
   const auto strains = [&](auto displacement) {
     std::vector<Vec3> moved(x.size());
     for (std::size_t k = 0; k < x.size(); ++k) moved[k] = x[k] + displacement(x[k]);
-    return std::pair{read_gauge(axial, moved, x, share_alone(x.size())), read_gauge(radial, moved, x, share_alone(x.size()))};
+    return std::pair{read_gauge(axial, moved, x, share_alone(x.size())),
+                     read_gauge(radial, moved, x, share_alone(x.size()))};
   };
   // shortened by 2e-3 along z, widened by 5e-4 across; positive in compression
   const auto [e_z, e_r] = strains([](const Vec3& p) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/strength.hpp"
+#include "core/loading/strength.hpp"
 
 using namespace breccia;
 

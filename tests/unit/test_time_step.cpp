@@ -4,10 +4,10 @@
 
 #include <numeric>
 
-#include "core/elastic_network.hpp"
-#include "core/error.hpp"
-#include "core/largest_eigenvalue.hpp"
-#include "core/time_step.hpp"
+#include "core/base/error.hpp"
+#include "core/base/largest_eigenvalue.hpp"
+#include "core/elastic/critical_step.hpp"
+#include "core/elastic/elastic_network.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
