@@ -33,8 +33,8 @@ double largest_eigenvalue(const Eigen::MatrixXd& matrix);
 
 /// Applications after which the value is short by more than the fraction `error` with a probability below
 /// `chance`, whatever the spectrum is, of a random vector: 1.648 sqrt(n) exp(-sqrt(error) (2 k - 1))
-/// (Kuczynski and Wozniakowski, SIAM J. Matrix Anal. Appl. 13 (1992) 1094). A mode of one light particle, or
-/// of one cluster apart from the others, is no exception.
+/// (Kuczynski and Wozniakowski, SIAM J. Matrix Anal. Appl. 13 (1992) 1094). A mode of one light
+/// particle, or of one cluster apart from the others, is no exception. (B43)
 int applications_for(Eigen::Index size, double error, double chance);
 
 }  // namespace breccia

@@ -4,7 +4,7 @@
 
 namespace breccia {
 
-/// How the area factor alpha of the bonds is found (MODEL: alpha).
+/// How the area factor alpha of the bonds is found: docs/model.md, "The area factor".
 enum class AlphaRule { automatic, affine, porosity, number };
 
 /// paper: k_s/k_n = 1/(2(1 + nu)); matched: k_s/k_n and alpha such that the specimen has the E and the nu
@@ -14,7 +14,7 @@ enum class Elasticity { paper, matched };
 /// plane: two dimensions, discs of unit thickness in the x-z plane (y = 0); areas are lengths times 1 m.
 enum class Space { solid, plane };
 
-/// Where the area of a bond comes from (MODEL: alternatives for A).
+/// Where the area of a bond comes from: docs/model.md, "Area".
 enum class AreaRule { minimum, harmonic, polyhedron, voronoi };
 
 /// How forces of bonds whose ends are shared between threads are summed.
@@ -24,8 +24,9 @@ enum class ScatterKind { atomic, private_sums, gather };
 /// disc on edge. halves: the mantle's two halves and the end layers with them, a direct shear box.
 enum class Grip { ends, strips, halves };
 
-/// How the dashpots of bonds and contacts enter the step (MODEL: time step). explicit_: c_n as it is; capped
-/// and summed hold back those that are too strong for the step.
+/// How the dashpots of bonds and contacts enter the step: docs/model.md, "Time step and mass
+/// scaling". explicit_: c_n as it is; capped and summed hold back those that are too strong for the
+/// step.
 enum class DampingScheme { explicit_, capped, summed };
 
 inline std::string_view name_of(DampingScheme scheme) {

@@ -18,7 +18,7 @@ using std::numbers::pi;
 
 enum Part { free_part = 0, lower_part = 1, upper_part = 2 };
 
-/// Which body of the loading a particle belongs to.
+/// Which body of the loading a particle belongs to. (B60) (B61) (B62)
 struct Holder {
   Grip grip;
   double edge;        ///< m; ends: height where a layer begins; strips: radius where a strip begins
@@ -45,7 +45,7 @@ struct Holder {
 };
 
 Holder holder_of(const Body& body, Grip grip, double mean_radius) {
-  // MODEL section 10: strips of half-width 0.15 R, 2.5 mean radii deep: of the spheres that reach that near
+  // (B61): strips of half-width 0.15 R, 2.5 mean radii deep: of the spheres that reach that near
   // the mantle, as the skin is found. With centres that near only, the strips crush their way in at 2.4 MPa
   // where the disc would split at 2.8 (cement, 15,070 spheres)
   if (grip == Grip::strips)
@@ -55,6 +55,7 @@ Holder holder_of(const Body& body, Grip grip, double mean_radius) {
 }
 
 /// Free particles first, then the lower and the upper body; within each along a Hilbert curve.
+/// (B96)
 std::vector<std::size_t> order_of(const Specimen& specimen, const Holder& part_of) {
   std::vector<Vec3> centres;
   centres.reserve(specimen.spheres.size());
@@ -79,7 +80,7 @@ struct Link {
 std::vector<Link> links_within(const ParticleTable& p, const std::vector<int>& group, double range,
                                int threads) {
   std::vector<Link> links;
-  for (const auto& [a, b] : near_pairs(p.position, p.radius, range, 0.0, threads)) {
+  for (const auto& [a, b] : near_pairs(p.position, p.radius, range, 0.0, threads)) {  // (P16)
     if (group[a] == 0 || group[a] != group[b]) continue;
     const double length = norm(p.position[b] - p.position[a]);
     links.push_back(p.gid[a] < p.gid[b] ? Link{a, b, length} : Link{b, a, length});
@@ -87,7 +88,7 @@ std::vector<Link> links_within(const ParticleTable& p, const std::vector<int>& g
   return links;
 }
 
-/// beta for a wanted coordination number, by bisection over the pairs' own ratios: exact to one bond.
+/// beta for a wanted coordination number, from the pairs' own ratios: exact to one bond. (B7)
 double range_for_coordination(const ParticleTable& p, const std::vector<int>& group, double wanted,
                               int threads) {
   double widest = 0.2;
@@ -167,7 +168,7 @@ double Assembly::length() const { return body.on_edge ? body.diameter : body.hei
 
 double Assembly::load_section() const {
   // the tension in the middle of a disc under two opposite loads is 2P/(pi D L)
-  return grip == Grip::strips ? 0.5 * pi * body.diameter * body.height : section();
+  return grip == Grip::strips ? 0.5 * pi * body.diameter * body.height : section();  // (B75)
 }
 
 bool at_mantle(const Body& body, Space space, const Vec3& centre, double radius, double mean_radius) {

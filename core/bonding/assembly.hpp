@@ -45,12 +45,12 @@ struct Assembly {
 };
 
 /// Length of a bond that stiffness and strains refer to: the rest length, or 0.2 (r_i + r_j) for nested
-/// spheres.
+/// spheres. (B8)
 inline double strain_length_of(double rest_length, double radius_sum) {
   return std::max(rest_length, 0.2 * radius_sum);
 }
 
-/// True where a sphere reaches the nominal mantle to within 0.3 mean radii.
+/// True where a sphere reaches the nominal mantle to within 0.3 mean radii. (B63)
 bool at_mantle(const Body& body, Space space, const Vec3& centre, double radius, double mean_radius);
 
 /// @param specimen  loaded along z, middle at the origin

@@ -28,7 +28,7 @@ void check(const ParticleTable& p, const BondTable& b, std::span<const Row> skin
 /// Section of a cylinder of radius r, or of a strip.
 double section(double r, Space space) { return space == Space::solid ? pi * r * r : 2.0 * r; }
 
-double equivalent(double r_i, double r_j) { return 2.0 * r_i * r_j / (r_i + r_j); }
+double equivalent(double r_i, double r_j) { return 2.0 * r_i * r_j / (r_i + r_j); }  // (S4.31)
 
 template <class Radius>
 std::vector<double> pair_areas(const ParticleTable& p, const BondTable& b, Space space,
@@ -39,9 +39,9 @@ std::vector<double> pair_areas(const ParticleTable& p, const BondTable& b, Space
   return area;
 }
 
-/// Surface of a regular polyhedron over that of its inscribed sphere: exact for the five solids, straight in
-/// between as in Santasusana's table C.2 (whose entries for n = 7, 11, 16 stray from that line by 0.04, 0.2,
-/// 0.5 %: misprints).
+/// (B9): surface of a regular polyhedron over that of its inscribed sphere: exact for the five
+/// solids, straight in between as in Santasusana's table C.2 (whose entries for n = 7, 11, 16 stray
+/// from that line by 0.04, 0.2, 0.5 %: misprints).
 double polyhedron_ratio(double n) {
   constexpr std::array<double, 5> faces{4, 6, 8, 12, 20};
   const double root5 = std::sqrt(5.0), root3 = std::sqrt(3.0);
@@ -64,8 +64,9 @@ double shape_ratio(double n, Space space) {
   return space == Space::solid ? polyhedron_ratio(n) : polygon_ratio(n);
 }
 
-/// Neighbours of a particle inside. Solid: 11, the mean of dense packings (thesis, section 4.6.2). Plane: 6;
-/// cells that tile a plane have six sides on average, by Euler's formula, whatever the packing.
+/// (B9): neighbours of a particle inside. Solid: 11, the mean of dense packings (thesis, section
+/// 4.6.2). Plane: 6; cells that tile a plane have six sides on average, by Euler's formula,
+/// whatever the packing.
 double inner_neighbours(Space space) { return space == Space::solid ? 11.0 : 6.0; }
 
 std::vector<double> polyhedron_areas(const ParticleTable& p, const BondTable& b, std::span<const Row> skin,
@@ -84,10 +85,11 @@ std::vector<double> polyhedron_areas(const ParticleTable& p, const BondTable& b,
     // a particle at the mantle is surrounded in part: each neighbour gets what it would get inside
     const double ratio =
         at_skin[row] ? shape_ratio(inner, space) * count[row] / inner : shape_ratio(count[row], space);
-    gamma[row] = ratio * surface / sum[row];
+    gamma[row] = ratio * surface / sum[row];  // (S4.30)
   }
   for (std::size_t k = 0; k < b.size; ++k) {
     const Row i = b.row_lo[k], j = b.row_hi[k];
+    // (S4.32)
     area[k] *= at_skin[i] == at_skin[j] ? 0.5 * (gamma[i] + gamma[j]) : at_skin[i] ? gamma[j] : gamma[i];
   }
   return area;
@@ -102,7 +104,7 @@ std::vector<double> voronoi_areas(const ParticleTable& p, const BondTable& b, co
     const auto face =
         std::lower_bound(cells.faces.begin(), cells.faces.end(), std::pair(i, j),
                          [](const VoronoiFace& f, const auto& ends) { return std::pair(f.a, f.b) < ends; });
-    if (face != cells.faces.end() && face->a == i && face->b == j) area[k] = face->area;
+    if (face != cells.faces.end() && face->a == i && face->b == j) area[k] = face->area;  // (B10)
   }
   return area;
 }
@@ -123,7 +125,7 @@ std::vector<double> bond_areas(AreaRule rule, const ParticleTable& particles, co
     case AreaRule::voronoi:
       return voronoi_areas(particles, bonds, body, space, threads, axis);
   }
-  return pair_areas(particles, bonds, space, smaller<double>);
+  return pair_areas(particles, bonds, space, smaller<double>);  // (P21)
 }
 
 }  // namespace breccia

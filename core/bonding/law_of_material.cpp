@@ -4,10 +4,10 @@
 
 namespace breccia {
 
-double paper_shear_ratio(double poisson_ratio) { return 0.5 / (1.0 + poisson_ratio); }
+double paper_shear_ratio(double poisson_ratio) { return 0.5 / (1.0 + poisson_ratio); }  // (P36)
 
 double matched_shear_ratio(double poisson_ratio, bool plane) {
-  return (1.0 - (plane ? 3.0 : 4.0) * poisson_ratio) / (1.0 + poisson_ratio);
+  return (1.0 - (plane ? 3.0 : 4.0) * poisson_ratio) / (1.0 + poisson_ratio);  // (B16)
 }
 
 BondLaw law_of(const Material& material, double shear_ratio) {

@@ -4,7 +4,7 @@
 
 namespace breccia {
 
-/// k_s/k_n. Onate et al. 2015, eqs. 30, 36: 1/(2(1 + nu)).
+/// k_s/k_n: 1/(2(1 + nu)) (P36).
 double paper_shear_ratio(double poisson_ratio);
 
 /// k_s/k_n for which an affinely deformed assembly has this Poisson ratio: (1 - 4 nu)/(1 + nu) of spheres,

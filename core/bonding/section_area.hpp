@@ -8,9 +8,10 @@
 
 namespace breccia {
 
-/// Sum of area |n_z| over the bonds whose ends lie on either side of the level z, m^2; n along the bond. The
-/// areas between a strip of particles and those above it or below it (Santasusana, table 5.1) are those
-/// through its upper and lower level. Areas that tile the body give its section.
+/// (B90): sum of area |n_z| over the bonds whose ends lie on either side of the level z, m^2; n
+/// along the bond. The areas between a strip of particles and those above it or below it
+/// (Santasusana, table 5.1) are those through its upper and lower level. Areas that tile the body
+/// give its section.
 /// @param area   m^2, of each bond
 /// @param level  m
 double area_through(const ParticleTable& particles, const BondTable& bonds, std::span<const double> area,

@@ -131,11 +131,12 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
     contacts.gid_hi[k] = p.gid[hi];
     contacts.row_lo[k] = lo;
     contacts.row_hi[k] = hi;
+    // (B30)
     contacts.stiffness[k] = material.young * material.alpha *
                             (material.space == Space::plane ? 2.0 * smaller : pi * smaller * smaller) / touch;
     if (features.rotation) contacts.arm_offset[k] = contact_arm_offset(p.radius[lo], p.radius[hi]);
     // pairs that overlap unbonded from the start are free of stress where they are
-    contacts.free_length[k] = first_list ? std::min(touch, distance) : touch;
+    contacts.free_length[k] = first_list ? std::min(touch, distance) : touch;  // (B31)
     const std::pair<Row, Row> key = std::minmax(lo, hi);
     const auto found = std::lower_bound(known.begin(), known.end(), std::pair(key, std::size_t{0}));
     if (found != known.end() && found->first == key) {

@@ -16,6 +16,7 @@ struct ContactSearch {
   double skin = 0;               ///< m, candidates are apart by less than this
   double slack = 0;              ///< m, what pairs may approach before the list must be renewed
   double reach = 0;              ///< m, largest distance that a candidate pair can have
+  // (B97)
   int check_every = 16;          ///< steps
   std::uint64_t next_check = 0;  ///< step
   std::uint64_t rebuilds = 0;

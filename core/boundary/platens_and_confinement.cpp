@@ -43,7 +43,7 @@ Platens make_platens(const Assembly& a, const ParticleTable& particles, bool rou
   }
   // the axial wave impedance of the specimen: critical for half its mass on half its stiffness, and a wave
   // that reaches the platen is swallowed instead of sent back
-  p.dashpot = a.section() * std::sqrt(young_modulus * specimen_mass / a.volume());
+  p.dashpot = a.section() * std::sqrt(young_modulus * specimen_mass / a.volume());  // (B66)
   return p;
 }
 
@@ -54,6 +54,7 @@ void drive_platens(Platens& platens, const ParticleTable& particles, const Share
     Vec3& velocity = platens.velocity[k];
     if (platens.servo) {
       const double inward = k == 0 ? 1.0 : -1.0;
+      // (B66)
       const double push = platens.pressure * platens.section + inward * platens.force[k].z;
       // dashpot taken at the end of the step, so that no layer is too light for it
       velocity.z = inward * (inward * velocity.z + dt * push / platens.mass[k]) /
@@ -77,7 +78,7 @@ Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid)
   }
   for (const Row row : c.rows) {
     const double r = a.particles.radius[row];
-    c.weight.push_back(c.plane ? 2.0 * r : std::numbers::pi * r * r);
+    c.weight.push_back(c.plane ? 2.0 * r : std::numbers::pi * r * r);  // (B71)
   }
   // each side of a rectangle, or the whole mantle, has its nominal surface
   const auto scale = [&](auto belongs, double surface) {
@@ -98,8 +99,8 @@ Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid)
 
 namespace {
 
-/// Two dimensions: pressure along x on both sides; the smallest a + b z along x removes the net force and the
-/// moment about y.
+/// Two dimensions: pressure along x on both sides; the smallest a + b z along x removes the net
+/// force and the moment about y. (B72)
 struct SideSums {
   double n = 0, z1 = 0, z2 = 0, net = 0, tilt = 0;
   SideSums& operator+=(const SideSums& o) {
@@ -139,8 +140,8 @@ struct SkinSums {
 void press_skin(Confinement& c, ParticleTable& particles, const Share& share) {
   if (c.rigid || c.pressure == 0.0) return;
   if (c.plane) return press_sides(c, particles, share);
-  // radial forces leave a net force and moments about x and y: the smallest horizontal correction a + b z + c
-  // (-y, x) that removes them and makes no moment about z
+  // (B72): radial forces leave a net force and moments about x and y: the smallest horizontal
+  // correction a + b z + c (-y, x) that removes them and makes no moment about z
   std::vector<SkinSums> blocks;
   const SkinSums s = sum_listed(share, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
@@ -178,7 +179,7 @@ void hold_skin(Confinement& c, ParticleTable& particles, const Share& share) {
     force.x = force.y = 0.0;
     return part;
   });
-  c.pressure = outward / c.surface;
+  c.pressure = outward / c.surface;  // (B73)
 }
 
 }  // namespace breccia

@@ -1,4 +1,5 @@
-// What acts on a specimen from outside: two platens, and what surrounds its mantle. MODEL section 10.
+// What acts on a specimen from outside: two platens, and what surrounds its mantle.
+// docs/model.md, "Laboratory tests".
 #pragma once
 #include <array>
 #include <vector>
@@ -22,11 +23,11 @@ struct Platens {
   double work = 0;                 ///< J, that both have done on the specimen
 };
 
-/// Pa, positive in compression, mean of both ends.
+/// Pa, positive in compression, mean of both ends. (B74)
 inline double axial_stress(const Platens& p) { return 0.5 * (p.force[1].z - p.force[0].z) / p.section; }
-/// Pa, top against bottom: what is missing to balance.
+/// Pa, top against bottom: what is missing to balance. (B74)
 inline double mismatch(const Platens& p) { return std::abs(p.force[1].z + p.force[0].z) / p.section; }
-/// Pa, with which the specimen holds back the upper body against the lower one along x.
+/// Pa, with which the specimen holds back the upper body against the lower one along x. (B80)
 inline double shear_stress(const Platens& p) { return 0.5 * (p.force[0].x - p.force[1].x) / p.section; }
 /// m, towards each other.
 inline double approach(const Platens& p) { return p.travel[0].z - p.travel[1].z; }
@@ -61,6 +62,7 @@ Confinement make_confinement(const Assembly& assembly, SkinWeights weights, bool
 void press_skin(Confinement& confinement, ParticleTable& particles, const Share& share);
 
 /// A rigid wall takes up the lateral forces of the skin, all of them summed: called when they are complete.
+/// (B73)
 void hold_skin(Confinement& confinement, ParticleTable& particles, const Share& share);
 
 }  // namespace breccia

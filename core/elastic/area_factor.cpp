@@ -13,17 +13,17 @@ namespace {
 double fabric_of(const Assembly& a) {
   double sum = 0.0;
   for (std::size_t k = 0; k < a.bonds.size; ++k) sum += a.bonds.area[k] * a.bonds.rest_length[k];
-  return sum / ((a.space == Space::plane ? 2.0 : 3.0) * a.volume());
+  return sum / ((a.space == Space::plane ? 2.0 : 3.0) * a.volume());  // (B13)
 }
 
-/// Affine deformation: E = alpha T E (2 + 3 kappa)/(4 + kappa), discs: 2 alpha T E (1 + kappa)/(3 + kappa) in
+/// (B14): E = alpha T E (2 + 3 kappa)/(4 + kappa), discs: 2 alpha T E (1 + kappa)/(3 + kappa) in
 /// plane stress; an upper bound on the stiffness.
 double affine_alpha(double fabric, double kappa, Space space) {
   if (space == Space::plane) return (3.0 + kappa) / (2.0 + 2.0 * kappa) / fabric;
   return (4.0 + kappa) / (2.0 + 3.0 * kappa) / fabric;
 }
 
-/// The specimen with alpha = 1: what its ends and skin answer.
+/// The specimen with alpha = 1: what its ends and skin answer. (B15)
 ElasticResponse probe_with(const Assembly& a, const Material& material, double kappa, bool rough,
                            int threads) {
   const BondLaw law = law_of(material, kappa);
@@ -31,14 +31,15 @@ ElasticResponse probe_with(const Assembly& a, const Material& material, double k
   return probe(a, bond_stiffness(law, a.particles, a.bonds), ratio, rough, threads);
 }
 
-/// Onate et al. 2015, eq. 22: 40 P/N_c, with P the porosity (a fraction) and N_c the coordination number.
+/// (P22): 40 P/N_c, with P the porosity (a fraction) and N_c the coordination number.
 double porosity_alpha(const Assembly& a) {
   double solid = 0.0;
   for (const double r : a.particles.radius) solid += 4.0 / 3.0 * std::numbers::pi * r * r * r;
-  return 40.0 * (1.0 - solid / a.volume()) / a.coordination;
+  return 40.0 * (1.0 - solid / a.volume()) / a.coordination;  // (P22)
 }
 
 /// k_s/k_n at which the probe shows the Poisson ratio asked for: secant steps from the affine value.
+/// (B16)
 double matched_ratio(const Assembly& a, const AreaFactorRequest& r, int threads, ElasticResponse& answer,
                      int& probes) {
   const auto miss = [&](double kappa) {
@@ -95,7 +96,7 @@ AreaFactor find_area_factor(const Assembly& a, const AreaFactorRequest& r, int t
     f.probes = 1;
   }
   // the network is linear: the modulus is proportional to alpha
-  f.alpha = r.material.young_modulus / answer.young_modulus;
+  f.alpha = r.material.young_modulus / answer.young_modulus;  // (B15)
   f.young_modulus = r.material.young_modulus;
   f.poisson_ratio = answer.poisson_ratio;
   return f;

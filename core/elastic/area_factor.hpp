@@ -1,4 +1,5 @@
-// alpha: the factor on the bonds' areas that gives the specimen the stiffness asked for. MODEL section 2.
+// alpha: the factor on the bonds' areas that gives the specimen the stiffness asked for.
+// docs/model.md, "Bonds".
 #pragma once
 #include "core/base/scene_options.hpp"
 #include "core/bonding/assembly.hpp"

@@ -33,14 +33,14 @@ Eigen::VectorXd roots_of_masses(const StepScene& s) {
   return by_mass;
 }
 
-/// True unless the bond is broken and too far open to be pressed.
+/// True unless the bond is broken and too far open to be pressed. (B42)
 bool can_press(const StepScene& s, std::size_t k) {
   if (bond_state(s.bonds, k) == BondState::intact) return true;
   const auto& x = s.particles.position;
   return norm(x[s.bonds.row_hi[k]] - x[s.bonds.row_lo[k]]) <= s.bonds.rest_length[k] + s.reach;
 }
 
-/// dt^2 K/4 + dt C/2 of a bond, or of a contact: rows as of an elastic network.
+/// dt^2 K/4 + dt C/2 of a bond, or of a contact: rows as of an elastic network. (B42)
 SpringConstants step_constants(const StepScene& s, std::size_t k, double dt) {
   const bool bond = k < s.bonds.size;
   if (bond && !can_press(s, k)) return {0.0, 0.0};
@@ -51,9 +51,9 @@ SpringConstants step_constants(const StepScene& s, std::size_t k, double dt) {
   return {stiff + 0.5 * dt * dashpot, s.shear_ratio * stiff};
 }
 
-/// M^-1/2 (dt^2 K/4 + dt C/2) M^-1/2 (1 + alpha) of a scene. One network takes the constants of all steps in
-/// turn: it is the largest thing that a run ever holds beside its tables. Masses are counted in their mean,
-/// so that floats hold them.
+/// M^-1/2 (dt^2 K/4 + dt C/2) M^-1/2 (1 + alpha) of a scene (B41). One network takes the constants
+/// of all steps in turn: it is the largest thing that a run ever holds beside its tables. Masses
+/// are counted in their mean, so that floats hold them.
 template <class Real>
 class ScaledNetwork {
 public:
@@ -189,7 +189,7 @@ double stability_number_bound(const StepScene& s, std::span<const std::size_t> c
 }
 
 double critical_time_step(const StepScene& s) {
-  return 0.98 * step_at_limit<float>(s, {effort_of_run(s.particles.size), 0.1});
+  return 0.98 * step_at_limit<float>(s, {effort_of_run(s.particles.size), 0.1});  // (B43)
 }
 
 double exact_time_step(const StepScene& s) {
@@ -223,7 +223,7 @@ std::vector<double> own_time_steps(const StepScene& s) {
       }
       const auto roots = by_mass.segment<6>(static_cast<Eigen::Index>(6 * row)).asDiagonal();
       const double largest = largest_eigenvalue(roots * stiffness * roots);
-      steps[row] = largest > 0.0 ? 2.0 / std::sqrt(largest) : infinite;
+      steps[row] = largest > 0.0 ? 2.0 / std::sqrt(largest) : infinite;  // (P12) (P14)
     }
   });
   return steps;

@@ -1,4 +1,5 @@
-// The largest step for which the central difference scheme is stable. MODEL section 8.
+// The largest step for which the central difference scheme is stable.
+// docs/model.md, "Time step and mass scaling".
 #pragma once
 #include <span>
 
@@ -41,9 +42,9 @@ struct StepLook {
 /// step
 StepLook look_at_step(const StepScene& scene, double dt, double enough = 0.0);
 
-/// No more than this times `dt`-fold can be added by the contacts given: a proven bound, by norms. The norm
-/// of one contact's part at either end is summed over the contacts of each particle; no network exceeds the
-/// largest sum of two ends.
+/// No more than this times `dt`-fold can be added by the contacts given: a proven bound, by norms
+/// (B44). The norm of one contact's part at either end is summed over the contacts of each
+/// particle; no network exceeds the largest sum of two ends.
 /// @param contacts  rows of scene.contacts
 double stability_number_bound(const StepScene& scene, std::span<const std::size_t> contacts, double dt);
 
@@ -57,6 +58,7 @@ double critical_time_step(const StepScene& scene);
 double exact_time_step(const StepScene& scene);
 
 /// 2/sqrt of the largest eigenvalue of M^-1 K of each particle while its neighbours are fixed, undamped.
+/// (P12) (P14)
 /// @returns s, per particle; infinity for one that nothing touches
 std::vector<double> own_time_steps(const StepScene& scene);
 

@@ -10,6 +10,7 @@ double whole_dashpot(const Dashpots& d, const ParticleTable& p, const BondTable&
   const Row lo = b.row_lo[k], hi = b.row_hi[k];
   double c = pair_dashpot(d.xi, p.mass[lo], p.mass[hi], b.stiffness[k]);
   if (d.paper_alpha > 0.0)
+    // (P30)
     c *= std::numbers::pi * d.paper_alpha * std::min(p.radius[lo], p.radius[hi]) / b.rest_length[k];
   return c;
 }

@@ -1,5 +1,5 @@
 // The dashpots of bonds and contacts: the paper's, and two schemes that hold back those too strong for the
-// step. MODEL section 8.
+// step. docs/model.md, "Time step and mass scaling".
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,22 +12,23 @@
 
 namespace breccia {
 
-/// c_n = 2 xi sqrt(m_ij k_n): the fraction xi of what is critical for the pair alone (Onate et al. 2015, eq.
-/// 30).
+/// c_n = 2 xi sqrt(m_ij k_n): the fraction xi of what is critical for the pair alone (S3.8), m_ij
+/// by (P28).
 /// @returns N s/m
 inline double pair_dashpot(double xi, double mass_lo, double mass_hi, double stiffness) {
-  return 2.0 * xi * std::sqrt(mass_lo * mass_hi / (mass_lo + mass_hi) * stiffness);
+  return 2.0 * xi * std::sqrt(mass_lo * mass_hi / (mass_lo + mass_hi) * stiffness);  // (S3.8) (P28)
 }
 
 /// q of both schemes below.
 constexpr double dashpot_share = 0.5;
 
-/// min(c_n, q k_n dt): no network's critical step falls below 1/sqrt(1 + 2 q) of the undamped one.
+/// min(c_n, q k_n dt) (B45): no network's critical step falls below 1/sqrt(1 + 2 q) of the
+/// undamped.
 inline double capped_dashpot(double c_n, double stiffness, double dt) {
   return std::min(c_n, dashpot_share * stiffness * dt);
 }
 
-/// c_n/(1 + q dt max(S_i/m_i, S_j/m_j)).
+/// c_n/(1 + q dt max(S_i/m_i, S_j/m_j)). (B46)
 /// @param load  1/s, the larger of both ends' sums of c_n over mass
 inline double summed_dashpot(double c_n, double load, double dt) {
   return c_n / (1.0 + dashpot_share * dt * load);
@@ -37,7 +38,7 @@ inline double summed_dashpot(double c_n, double load, double dt) {
 struct Dashpots {
   DampingScheme scheme = DampingScheme::explicit_;
   double xi = 0;             ///< 0: none
-  double paper_alpha = 0;    ///< of the form "paper", times pi alpha r_c/d0 (eq. 30); 0: without
+  double paper_alpha = 0;    ///< of the form "paper", times pi alpha r_c/d0 (P30); 0: without
   double held_step = 0;      ///< s, at which the schemes are evaluated; 0: the step of the run
   std::vector<double> load;  ///< 1/s, summed: S_i/m_i of each particle, S_i over its bonds
 };

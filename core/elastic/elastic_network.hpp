@@ -66,6 +66,7 @@ void apply_stiffness(const Network<Real>& network, const VectorOf<Real>& displac
                      std::vector<SpringLoad<Real>>& loads, VectorOf<Real>& forces);
 
 /// What the assembly does when its layers are pushed together: the answer of a static linear solve.
+/// (B15)
 struct ElasticResponse {
   double young_modulus = 0;  ///< Pa, mean platen stress over gauge strain
   double poisson_ratio = 0;  ///< radial gauge over axial gauge

@@ -1,5 +1,5 @@
-// Strain gauges glued to the specimen: strains as fixed linear combinations of displacements. MODEL
-// section 10.
+// Strain gauges glued to the specimen: strains as fixed linear combinations of displacements.
+// docs/model.md, "Laboratory tests".
 #pragma once
 #include <vector>
 
@@ -14,11 +14,11 @@ struct Gauge {
   std::vector<Vec3> weights;  ///< 1/m
 };
 
-/// Least-squares slope of u_z over z0 in the middle half.
+/// Least-squares slope of u_z over z0 in the middle half. (B76)
 Gauge axial_gauge(const Assembly& assembly);
 
-/// Least-squares widening across the axis: of the skin at mid-height (middle 40 %); of a disc on edge that of
-/// all particles there, along x. No rows where nothing lies there.
+/// Least-squares widening across the axis: of the skin at mid-height (middle 40 %); of a disc on
+/// edge that of all particles there, along x. No rows where nothing lies there. (B78)
 Gauge lateral_gauge(const Assembly& assembly);
 
 /// Strain of the gauge between reference and present positions.

@@ -19,7 +19,7 @@ ElasticBody body_of(const ImpactMaterial& m, double radius, double mass) {
   return {m.young_modulus, m.poisson_ratio, radius > 0.0 ? 1.0 / radius : 0.0, mass > 0.0 ? 1.0 / mass : 0.0};
 }
 
-/// k_n = E A/d0 and k_s as those of a bond (MODEL section 6), with harmonic means; a wall is met like a
+/// k_n = E A/d0 and k_s as those of a bond (B30), with harmonic means; a wall is met like a
 /// mirror image.
 ImpactConstants linear_constants(const ElasticBody& a, const ElasticBody& b,
                                  const std::optional<double>& stiffness, double xi) {
@@ -29,6 +29,7 @@ ImpactConstants linear_constants(const ElasticBody& a, const ElasticBody& b,
   const double normal =
       stiffness.value_or(harmonic_mean(a.young, b.young) * area / (1.0 / curvature + 1.0 / other));
   const double ratio = 0.5 / (1.0 + harmonic_mean(a.poisson, b.poisson));
+  // (S3.8)
   return {normal, ratio * normal, 2.0 * xi * std::sqrt(normal / (a.inverse_mass + b.inverse_mass))};
 }
 

@@ -45,8 +45,8 @@ ContactSlopes slopes_at(ContactLaw law, const ImpactConstants& c, double overlap
 /// What turning adds to a tangential spring on a solid sphere: 1 + 5/2.
 inline constexpr double rolling_factor = 3.5;
 
-/// What one end of a contact asks of the step: dt is stable while this is below the end's mass (MODEL section
-/// 8).
+/// What one end of a contact asks of the step: dt is stable while this is below the end's mass
+/// (B40).
 double step_demand(const ContactSlopes& slopes, double dt);
 
 /// Both lists of candidates, renewed when particles have used up the skin.

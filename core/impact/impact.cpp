@@ -150,8 +150,8 @@ struct Touch {
   double distance;
 };
 
-/// An edge that two triangles share is met once: a touch on a rim is dropped when its point lies on another
-/// triangle that is touched as near or nearer.
+/// (B39): an edge that two triangles share is met once: a touch on a rim is dropped when its point
+/// lies on another triangle that is touched as near or nearer.
 bool is_doubled(const ImpactWorld& w, const std::vector<Touch>& touches, std::size_t k, double radius) {
   if (!touches[k].nearest.on_rim) return false;
   for (std::size_t m = 0; m < touches.size(); ++m) {
@@ -275,6 +275,7 @@ void integrate(ImpactWorld& w) {
 }
 
 /// A scene at its start: velocities are set back half a step, through which gravity alone has acted.
+/// (B40)
 ImpactWorld make_world(const ImpactScene& scene, ImpactResult& result) {
   ImpactWorld w{scene, result.particles};
   w.dt = result.time_step;

@@ -1,5 +1,5 @@
-// Free particles that meet each other and walls: the scene, what is measured, and the run. MODEL sections 6
-// and 7.
+// Free particles that meet each other and walls: the scene, what is measured, and the run.
+// docs/model.md, "Unbonded contacts".
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -89,8 +89,8 @@ struct ImpactResult {
 /// @throws BadInput: particles that overlap each other or a wall at the start, or lie behind one
 void check_start(const ImpactScene& scene);
 
-/// The step at which the stiffest contact that can come about goes unstable, s: for Hertz at the overlap of
-/// the largest relative speed. A lower bound within 15 % for equal spheres.
+/// (B40): the step at which the stiffest contact that can come about goes unstable, s: for Hertz at
+/// the overlap of the largest relative speed. A lower bound within 15 % for equal spheres.
 /// @throws BadInput when nothing moves and nothing pulls
 double critical_impact_step(const ImpactScene& scene);
 

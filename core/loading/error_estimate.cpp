@@ -17,9 +17,10 @@ ErrorEstimate estimate_error(double kinetic_ratio, double platen_mismatch, std::
                              std::uint64_t particles) {
   ErrorEstimate e;
   // the stress is the mean of both platens, so that half of what they differ by is in doubt
-  e.rate = excess_per_kinetic_ratio * kinetic_ratio + 0.5 * platen_mismatch;
+  e.rate = excess_per_kinetic_ratio * kinetic_ratio + 0.5 * platen_mismatch;  // (B98)
+  // (B99)
   e.step = energy_error;
-  e.sampling = scatter_of_packings / std::sqrt(static_cast<double>(particles));
+  e.sampling = scatter_of_packings / std::sqrt(static_cast<double>(particles));  // (B100)
   return e;
 }
 

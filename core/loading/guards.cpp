@@ -165,7 +165,7 @@ double work_since(Guards& g, const World& w) {
 void check_energy(Guards& g, const World& w, double kinetic, double stored) {
   g.explained = std::max(0.0, g.explained + work_since(g, w));
   const double own = std::max(0.0, kinetic - energy_of_layers(w.platens));
-  const double bound = allowed_excess(w) * (g.explained + 0.01 * g.highest) + g.noise;
+  const double bound = allowed_excess(w) * (g.explained + 0.01 * g.highest) + g.noise;  // (B58)
   double there = own + stored;
   // with the places of the step whose forces the bonds remember: where places have gone on since, a bond that
   // yields seems to hold more than it does

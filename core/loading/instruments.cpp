@@ -32,20 +32,20 @@ Reading read(World& w, const Instruments& in) {
   if (in.loading == Loading::shear) {
     // of a shear box: the strain is the shift over its width, the stress is that of the band
     r.axial_strain = r.platen_strain = (shear_travel(w.platens) - in.zeros.shear) / w.body.diameter;
-    r.axial_stress = shear_stress(w.platens);
+    r.axial_stress = shear_stress(w.platens);  // (B80)
     r.confining_stress = axial_stress(w.platens);
     r.radial_strain = CurveRow::untracked;
     r.volumetric_strain = (approach(w.platens) - in.zeros.approach) / w.body.height;  // dilation is negative
     r.mismatch = mismatch(w.platens);
     return r;
   }
-  r.platen_strain = in.sign * (approach(w.platens) - in.zeros.approach) / in.free_length;
+  r.platen_strain = in.sign * (approach(w.platens) - in.zeros.approach) / in.free_length;  // (B77)
   r.axial_strain =
       in.axial.rows.empty() ? r.platen_strain : in.sign * (gauge_now(w, in.axial) - in.zeros.axial);
   r.radial_strain =
       in.lateral.rows.empty() ? CurveRow::untracked : in.sign * (gauge_now(w, in.lateral) - in.zeros.lateral);
   r.axial_stress = in.sign * axial_stress(w.platens);
-  // across a disc strains are not uniform: no volume follows from them
+  // across a disc strains are not uniform: no volume follows from them (B79)
   r.volumetric_strain = in.grip == Grip::strips ? CurveRow::untracked
                                                 : r.axial_strain + in.lateral_directions * r.radial_strain;
   r.mismatch = mismatch(w.platens);

@@ -21,7 +21,7 @@ struct Instruments {
 Instruments make_instruments(const World& world, const Assembly& assembly, const LoadTest& test,
                              const Zeros* zeros = nullptr);
 
-/// One reading after a step.
+/// One reading after a step. (B91)
 Reading read(World& world, const Instruments& instruments);
 
 /// Platen travel of the loading direction since the start, m.

@@ -13,12 +13,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// 0 to 1 without a jump in speed.
+/// 0 to 1 without a jump in speed. (B65)
 double eased(double t, double duration) {
   return t >= duration ? 1.0 : 0.5 * (1.0 - std::cos(std::numbers::pi * t / duration));
 }
 
-/// s, for a wave to run from end to end.
+/// s, for a wave to run from end to end. (B65)
 double crossing_time(const World& w, const Assembly& a) {
   return a.length() / std::sqrt(w.material.young_modulus / w.material.density);
 }
@@ -120,12 +120,12 @@ void set_pressure(const Run& run, double pressure) {
   if (run.test.loading != Loading::shear) run.w.confinement.pressure = pressure;
 }
 
-/// Stage 1: the pressure rises until the specimen rests under it.
+/// Stage 1: the pressure rises until the specimen rests under it. (B67)
 /// @returns false when interrupted
 bool press_hydrostatically(Run& run) {
   World& w = run.w;
   const double pressure = run.test.confinement, crossing = crossing_time(w, run.assembly);
-  const double rise = 16.0 * crossing, patience = 400.0 * crossing;
+  const double rise = 16.0 * crossing, patience = 400.0 * crossing;  // (B67)
   w.platens.servo = true;
   double stress = 0.0;  // mean since the last check
   constexpr int between_checks = 50;
@@ -166,7 +166,7 @@ bool on_envelope(const Direction& d, const CurveRow& row) {
   return d.sense > 0.0 && row.platen_strain >= d.turned_at;
 }
 
-/// Unloads where the test asks for it, and loads again.
+/// Unloads where the test asks for it, and loads again. (B69)
 void follow(Run& run, const CurveRow& row) {
   const LoadTest& test = run.test;
   Direction& d = run.state.direction;
@@ -181,7 +181,7 @@ void follow(Run& run, const CurveRow& row) {
   }
 }
 
-/// True when the stress has come down from its peak by the fraction asked for.
+/// True when the stress has come down from its peak by the fraction asked for. (B70)
 bool has_dropped(Run& run, const CurveRow& row) {
   double& peak = run.state.peak;
   const double strength = run.test.loading == Loading::shear ? row.axial_stress_Pa : deviator(row);
@@ -227,6 +227,7 @@ void load(Run& run) {
   Recorder& recorder = run.result.record;
   while (true) {
     double& speed = run.state.speed;
+    // (B65)
     const double wanted = run.state.direction.sense * test.platen_speed * eased(w.time - start, ramp);
     // platens that turn back do it within a crossing or two
     speed = test.unload_at.empty() ? wanted : speed + std::min(1.0, w.dt / crossing) * (wanted - speed);
@@ -251,11 +252,12 @@ void load(Run& run) {
 }
 
 /// The hydrostatic stage as a test of its own: the pressure rises evenly, at the rate at which an elastic
-/// specimen between platens of the given speed would take it up.
+/// specimen between platens of the given speed would take it up. (B68)
 void press_evenly(Run& run) {
   World& w = run.w;
   const LoadTest& test = run.test;
   const Instruments in = begin_or_go_on(run, Stage::pressing);
+  // (B68)
   const double rate = w.material.young_modulus * 2.0 * test.platen_speed / run.assembly.length();
   const double duration = test.confinement / rate,
                ramp = std::max(2.0 * crossing_time(w, run.assembly), 0.05 * duration);

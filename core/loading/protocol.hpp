@@ -1,6 +1,6 @@
 // A laboratory test between two platens: hydrostatic stage where there is confinement, then loading at
-// constant speed and pressure. Compression, tension, direct shear, and the hydrostatic stage alone. MODEL
-// section 10.
+// constant speed and pressure. Compression, tension, direct shear, and the hydrostatic stage alone.
+// docs/model.md, "Laboratory tests".
 #pragma once
 #include <functional>
 #include <string>

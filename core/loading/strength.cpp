@@ -46,10 +46,10 @@ CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double>
   double lowest = f.peak_deviator;  // since the peak
   for (std::size_t k = f.peak_row; k < rows.size(); ++k) lowest = std::min(lowest, deviator(rows[k]));
   const bool lasts = 50 * (rows.size() - 1 - f.peak_row) >= rows.size();
-  f.peak_reached = lowest < (lasts ? 0.99 : 0.95) * f.peak_deviator;
+  f.peak_reached = lowest < (lasts ? 0.99 : 0.95) * f.peak_deviator;  // (B81)
 
   const auto strain = [](const CurveRow& r) { return r.axial_strain; };
-  const auto initial = rising(rows, f.peak_row, 0.05, 0.25);
+  const auto initial = rising(rows, f.peak_row, 0.05, 0.25);  // (B82)
   f.young_modulus = slope(initial, strain, deviator);
   f.young_modulus_50 = slope(rising(rows, f.peak_row, 0.45, 0.55), strain, deviator);
   if (const auto lateral = slope(initial, strain, [](const CurveRow& r) { return r.radial_strain; }))
@@ -58,15 +58,17 @@ CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double>
   const double at_peak = peak.broken_tension + peak.broken_shear;
   if (at_peak > 0)
     for (std::size_t k = 0; k <= f.peak_row && !f.crack_initiation_stress; ++k)
+      // (B83)
       if (rows[k].broken_tension + rows[k].broken_shear >= 0.01 * at_peak)
         f.crack_initiation_stress = rows[k].axial_stress_Pa;
   std::size_t densest = 0;
   for (std::size_t k = 0; k <= f.peak_row; ++k)
     if (rows[k].volumetric_strain > rows[densest].volumetric_strain) densest = k;
-  if (densest < f.peak_row) f.crack_damage_stress = rows[densest].axial_stress_Pa;
+  if (densest < f.peak_row) f.crack_damage_stress = rows[densest].axial_stress_Pa;  // (B83)
 
   for (std::size_t k = 0; k <= f.peak_row; ++k) {
     f.platen_mismatch = std::max(f.platen_mismatch, mismatch[k] / f.peak_deviator);
+    // (B87)
     if (deviator(rows[k]) > 0.5 * f.peak_deviator && rows[k].stored_J > 0)
       f.kinetic_ratio = std::max(f.kinetic_ratio, rows[k].kinetic_J / rows[k].stored_J);
   }
@@ -87,7 +89,7 @@ std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement,
   if (!(steepness > 0)) return {};
   MohrCoulomb fit;
   fit.friction_angle_deg = std::asin((steepness - 1) / (steepness + 1)) * 180.0 / std::numbers::pi;
-  fit.cohesion_Pa = unconfined / (2.0 * std::sqrt(steepness));
+  fit.cohesion_Pa = unconfined / (2.0 * std::sqrt(steepness));  // (S4.37)
   double square = 0;
   for (std::size_t k = 0; k < n; ++k)
     square += std::pow(peak[k] - unconfined - steepness * confinement[k], 2);

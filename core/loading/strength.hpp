@@ -1,4 +1,5 @@
-// Strengths and moduli as an engineer reads them off a curve. MODEL sections 10 and 11; DESIGN: summary.json.
+// Strengths and moduli as an engineer reads them off a curve.
+// docs/model.md, "What is measured".
 #pragma once
 #include <optional>
 #include <span>
@@ -14,8 +15,9 @@ struct CurveFindings {
   std::size_t peak_row = 0;
   double peak_stress = 0;    ///< Pa, total
   double peak_deviator = 0;  ///< Pa
-  /// The deviator fell after its largest value: by more than 1 %, or, where that lies in the last fiftieth of
-  /// the curve, 5 %. A curve that still rises falls by 1 % now and then, when a few bonds break at once.
+  /// (B81): the deviator fell after its largest value: by more than 1 %, or, where that lies in the
+  /// last fiftieth of the curve, 5 %. A curve that still rises falls by 1 % now and then, when a
+  /// few bonds break at once.
   bool peak_reached = false;
   double strain_at_peak = 0;
   std::optional<double> young_modulus, young_modulus_50, poisson_ratio;
@@ -28,14 +30,16 @@ struct CurveFindings {
 /// @param mismatch  Pa, one per row
 CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double> mismatch);
 
-/// Modulus and permanent strain of each unloading. @param times  s, of each: when unloaded, when reloaded
+/// Modulus and permanent strain of each unloading (B84). @param times  s, of each: when unloaded,
+/// when reloaded
 std::vector<CycleSummary> read_cycles(std::span<const CurveRow> rows,
                                       std::span<const std::pair<double, double>> times);
 
-/// The largest axial stress before it first fell by the fraction; nothing when it never did.
+/// The largest axial stress before it first fell by the fraction; nothing when it never did. (B85)
 std::optional<double> stress_at_first_drop(std::span<const CurveRow> rows, double fraction);
 
 /// Slope of the mean stress over the volumetric strain between 5 and 25 % of the last pressure, Pa.
+/// (B86)
 std::optional<double> bulk_modulus(std::span<const CurveRow> rows);
 
 /// Straight line tau = c + sigma tan phi through the strengths of a direct shear series.
@@ -43,6 +47,7 @@ std::optional<MohrCoulomb> fit_shear_line(std::span<const double> normal_stress,
                                           std::span<const double> strength);
 
 /// Straight line sigma_1 = q + N sigma_3 through the peaks: sin phi = (N - 1)/(N + 1), c = q/(2 sqrt N).
+/// (S4.37)
 /// @returns nothing for fewer than two different confinements
 std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement,
                                             std::span<const double> peak);

@@ -26,6 +26,7 @@ std::string name_of(Stopped stopped) {
 }
 
 void warn_if_dynamic(const CurveFindings& f, RunSummary& run) {
+  // (B87)
   if (f.kinetic_ratio > 1e-3)
     run.warnings.push_back(fmt::format(
         "dynamic: kinetic over stored energy reaches {:.1e} before the peak (quasi-static: below 1e-3); "
@@ -64,7 +65,8 @@ CurveFindings findings(const std::string& test, const LoadResult& result) {
   return f;
 }
 
-/// Where a disc cracked first decides whether its strength is a tensile one. MODEL section 10.
+/// Where a disc cracked first decides whether its strength is a tensile one.
+/// (B85)
 void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunSummary& run) {
   run.tensile_strength_Pa = run.peak_stress_Pa;
   constexpr double strip = 0.15;  // half-width over radius

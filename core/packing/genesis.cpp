@@ -34,7 +34,7 @@ double wall_pressure(const Region& region, std::span<const double> r, std::span<
     for_each_wall(region, x[i], [&](double distance, const Vec3& inward) {
       const double force = std::max(r[i] - distance, 0.0);
       const double round = std::numbers::pi * edge.x, straight = 4 * (inward.z != 0 ? edge.x : edge.z);
-      pressure += force / (region.box() ? straight : round);
+      pressure += force / (region.box() ? straight : round);  // (B29)
     });
   return pressure;
 }

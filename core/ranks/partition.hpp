@@ -53,7 +53,7 @@ Share share_alone(std::size_t rows);
 /// Of one of several ranks: parts of equal work, neighbours not yet met.
 Share share_of_rank(const World& whole, const Ranks& ranks);
 
-/// Sum over the items of all ranks, block by block. T needs += and is copied as it lies.
+/// (B95): sum over the items of all ranks, block by block. T needs += and is copied as it lies.
 /// @param first_at  item with which the given row begins; rises with the row
 /// @param blocks    storage that is kept between calls
 /// @param over      over(first, last): the sum over these items, in their order

@@ -1,6 +1,6 @@
 // Which range of bonds (or contacts) may add to which particle, worked out once when the rows are sorted. A
-// particle touched from one range only is interior and gets plain adds; every other is shared (DESIGN: the
-// loop).
+// particle touched from one range only is interior and gets plain adds; every other is shared:
+// docs/model.md, "Order of sums and times in a step".
 #pragma once
 #include <span>
 #include <vector>

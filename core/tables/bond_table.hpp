@@ -31,7 +31,7 @@ namespace breccia {
   COLUMN(double, spring_force,    "N",     ledger,    ledger,          "of the law along a damaged bond at the end of the step, tension positive") \
   COLUMN(double, viscous_force,   "N",     ledger,    ledger,          "of the dashpot along the bond, as it was applied") \
   COLUMN(double, shear_factor,    "1",     ledger,    ledger,          "of a damaged bond, tangential force over the history of shear")  \
-  COLUMN(double, failure_state,   "1",     derived,   stress,          "max(F_s/S, u_e/u_nf), 1 = broken (Santasusana, eq. 5.21)")
+  COLUMN(double, failure_state,   "1",     derived,   stress,          "max(F_s/S, u_e/u_nf), 1 = broken (S5.21)")
 // clang-format on
 
 struct BondTable {

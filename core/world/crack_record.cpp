@@ -41,6 +41,7 @@ Crack crack_of(const Law& law, bool coupled, const FreshBreak& was, double dt, c
   crack.normal_force = carried.normal;
   crack.shear_force = norm(carried.shear);
   crack.area = bond.strength_area;
+  // (B88)
   crack.energy = stored_energy(law, bond, before, distance_before, coupled) -
                  stored_energy(law, bond, history_of_bond(b, k), distance, coupled);
   return crack;

@@ -48,6 +48,7 @@ struct StepWork : MotionWork {
 };
 
 /// What the platen does to a row that it holds: it prescribes z, and x and y where it is rough.
+/// (B49)
 void add_platen(const World& w, std::size_t row, const Vec3& after, StepWork& s) {
   const ParticleTable& p = w.particles;
   const Vec3& v = p.velocity[row];
@@ -77,7 +78,7 @@ StepWork work_on_held(const World& w, std::size_t row) {
   return s;
 }
 
-/// J, of damage in the normal direction, a function of the state.
+/// J, of damage in the normal direction, a function of the state. (B52)
 double normal_damage(const World& w) {
   if (!w.features.breakage || w.features.criterion == Criterion::coupled) return 0.0;
   std::vector<double> blocks;
@@ -200,9 +201,9 @@ Losses losses_of(const EnergyLedger& ledger) {
 EnergyBalance balance(const World& w) {
   const EnergyLedger& ledger = w.ledger;
   EnergyBalance e;
-  e.work = ledger.platens.done + ledger.pressure.done + ledger.start;
+  e.work = ledger.platens.done + ledger.pressure.done + ledger.start;  // (B49)
   e.kinetic = ledger.kinetic;
-  e.stored = stored_energy(w, w.dt);
+  e.stored = stored_energy(w, w.dt);  // (B50)
   const Losses losses = losses_of_all(w);
   const auto& [bonds, contacts] = losses;
   e.plastic = bonds.plastic;
@@ -210,7 +211,7 @@ EnergyBalance balance(const World& w) {
   e.friction = bonds.friction + contacts.friction;
   e.failure = bonds.failure;
   e.contact_viscous = bonds.viscous + contacts.viscous;
-  e.global_damping = ledger.damped_motion.done + ledger.damped_spin.done;
+  e.global_damping = ledger.damped_motion.done + ledger.damped_spin.done;  // (B56)
   return e;
 }
 
@@ -222,6 +223,7 @@ void note_balance(EnergyLedger& ledger, const EnergyBalance& e) {
 }
 
 double energy_error(const EnergyLedger& ledger) {
+  // (B57)
   return ledger.most_work > 0.0 ? std::max(ledger.worst_balance, ledger.worst_loss) / ledger.most_work : 0.0;
 }
 

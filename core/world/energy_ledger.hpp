@@ -1,7 +1,7 @@
-// Where the energy of a run comes from and where it goes. MODEL section 9. The scheme changes the kinetic
-// energy K(n) = 1/2 sum m v(n-1/2).v(n+1/2) by the trapezoid 1/2 (F(n-1) + F(n)).dx of every force, exactly;
-// every work and every loss is booked by that trapezoid, so that what does not balance is an error of the
-// step.
+// Where the energy of a run comes from and where it goes: docs/model.md, "Energy ledger". The
+// scheme changes the kinetic energy K(n) = 1/2 sum m v(n-1/2).v(n+1/2) by the trapezoid
+// 1/2 (F(n-1) + F(n)).dx of every force, exactly (B48); every work and every loss is booked by
+// that trapezoid, so that what does not balance is an error of the step.
 #pragma once
 #include <array>
 #include <string_view>
@@ -16,8 +16,8 @@ namespace breccia {
 
 struct World;
 
-/// The trapezoid of a force in two halves: its work at the end of step n over dx(n) is known at once, that
-/// over dx(n+1) belongs to the step to come.
+/// (B48): the trapezoid of a force in two halves: its work at the end of step n over dx(n) is known
+/// at once, that over dx(n+1) belongs to the step to come.
 struct TrapezoidSum {
   double done = 0;     ///< J, up to the present step
   double pending = 0;  ///< J, the half that the next step begins with
@@ -99,6 +99,7 @@ EnergyBalance balance(const World& world);
 void note_balance(EnergyLedger& ledger, const EnergyBalance& balance);
 
 /// The larger of imbalance and negative dissipation, over the work put in. 0 while there was none.
+/// (B57)
 double energy_error(const EnergyLedger& ledger);
 
 }  // namespace breccia

@@ -77,7 +77,7 @@ void choose_step(World& w) {
   w.dashpots.held_step = o.damping_step;
   sum_loads(w.dashpots, w.particles, w.bonds);
   w.critical_dt = critical_time_step(step_scene(w));
-  w.dt = w.step_watch.first_dt = o.safety * w.critical_dt;
+  w.dt = w.step_watch.first_dt = o.safety * w.critical_dt;  // (P11)
   set_bond_dashpots(w);
 }
 
@@ -87,7 +87,7 @@ void keep_step(World& w) {
   const StepScene scene = step_scene(w);
   StepWatch& watch = w.step_watch;
   const std::vector<std::size_t> added = uncounted(w.contacts, watch.counted);
-  if (added.empty() || stability_number_bound(scene, added, w.dt) <= watch.room) return;
+  if (added.empty() || stability_number_bound(scene, added, w.dt) <= watch.room) return;  // (B44)
   watch.counted = pairs_of(w.contacts);
   constexpr int most_looks = 3;  // one finds the step, the next confirms it, or mends its aim
   for (int look_number = 0; look_number < most_looks; ++look_number) {

@@ -1,5 +1,5 @@
 // The step of a world: chosen at the start, looked at again when pairs that may touch are listed anew, and
-// lowered where they ask for it. MODEL section 8.
+// lowered where they ask for it. docs/model.md, "Time step and mass scaling".
 #pragma once
 #include <cstdint>
 #include <utility>

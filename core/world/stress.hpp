@@ -11,13 +11,13 @@ struct Stress {
   Vec3 shear;   ///< yz, zx, xy
 };
 
-/// Mean stress of the volume: (1/V) sum F (x) l over bonds and contacts, F on lo, l from lo to hi.
-/// Santasusana's thesis, eq. 5.19; Bagi, Mech. Mater. 22 (1996) 165-177.
+/// Mean stress of the volume (S5.19): (1/V) sum F (x) l over bonds and contacts, F on lo, l from lo
+/// to hi. (S5.19); Bagi, Mech. Mater. 22 (1996) 165-177.
 Stress mean_stress_tensor(const World& world);
 
-/// Fills the columns stress_normal and stress_shear of the particles, with F (x) arm over a particle's bonds
-/// and contacts and, for its volume, its share of the specimen's by r^3 (r^2 of discs), and failure_state of
-/// the bonds. Of several ranks, for the rows that this one owns.
+/// (B89): fills the columns stress_normal and stress_shear of the particles, with F (x) arm over a
+/// particle's bonds and contacts and, for its volume, its share of the specimen's by r^3 (r^2 of
+/// discs), and failure_state of the bonds. Of several ranks, for the rows that this one owns.
 void fill_stress_columns(World& world);
 
 }  // namespace breccia

@@ -17,6 +17,7 @@ using std::numbers::pi;
 void set_masses(ParticleTable& p, double density, Space space) {
   for (std::size_t row = 0; row < p.size; ++row) {
     const double r = p.radius[row];
+    // (B1)
     p.mass[row] = density * (space == Space::plane ? pi * r * r : 4.0 / 3.0 * pi * r * r * r);
   }
 }
@@ -25,7 +26,7 @@ void set_bond_constants(World& w) {
   const ParticleTable& p = w.particles;
   BondTable& b = w.bonds;
   // a strength area of its own partitions space as it is; otherwise strength and stiffness share alpha A
-  for (double& area : b.area) area *= w.alpha;
+  for (double& area : b.area) area *= w.alpha;  // (P21) (B11)
   const std::vector<double> stiffness = bond_stiffness(w.law, p, b);
   for (std::size_t k = 0; k < b.padded; ++k) {
     const Row lo = b.row_lo[k], hi = b.row_hi[k];
@@ -80,6 +81,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   if (options.precision == Precision::mixed) w.narrow_bonds = narrow_bonds(w.bonds);
   w.platens = make_platens(assembly, w.particles, options.rough_platens, material.young_modulus);
   w.confinement = make_confinement(assembly, options.skin_weights, options.rigid_skin);
+  // (B97)
   w.search = make_contact_search(assembly, options.new_contacts, 0.2 * assembly.mean_radius);
   w.cracks = make_crack_record(options.cracks && w.features.breakage, options.threads, w.bonds.size);
   w.bond_plan =

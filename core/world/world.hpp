@@ -29,7 +29,7 @@ struct WorldOptions {
   SkinWeights skin_weights = SkinWeights::radius;
   bool cracks = true;            ///< keep a record of broken bonds
   double contact_damping = 0.9;  ///< xi
-  bool paper_form = false;       ///< damping times pi alpha r_c/d0 (Onate et al. 2015, eq. 30)
+  bool paper_form = false;       ///< damping times pi alpha r_c/d0 (P30)
   DampingScheme damping_scheme = DampingScheme::explicit_;
   double damping_step =
       0;  ///< s, at which the scheme is evaluated; 0: the run's own, which converges elsewhere

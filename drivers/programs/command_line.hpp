@@ -1,4 +1,4 @@
-// The command line that all programs share, and how they end. DESIGN: what a user meets.
+// The command line that all programs share, and how they end.
 #pragma once
 #include <filesystem>
 #include <functional>

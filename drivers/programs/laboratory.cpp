@@ -71,8 +71,8 @@ WorldOptions world_options(const Case& c, const std::string& test, const Feature
 
 namespace {
 
-/// Energy per area that the bonds need to part, mean over the bonds; the law's delta fixes it (MODEL section
-/// 3).
+/// Energy per area that the bonds need to part, mean over the bonds; the law's delta fixes it.
+/// (B19)
 template <class Law>
 std::string fracture_energies(const World& w, const Law& law) {
   double normal = 0, shear = 0, area = 0;

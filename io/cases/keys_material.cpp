@@ -173,7 +173,8 @@ Material make_material(const Layer& layer, const FeatureCase& features, Elastici
   }
   if (by_stiffness && !layer.contains("material.young_modulus"))
     material.young_modulus = material.own.at("normal_stiffness");  // per metre: for wave speeds only
-  constexpr double largest = 0.25;  // MODEL: kappa = (1 - 4 nu)/(1 + nu) falls to zero there
+  // (B16): kappa = (1 - 4 nu)/(1 + nu) falls to zero there
+  constexpr double largest = 0.25;
   if (elasticity == Elasticity::matched && !by_stiffness && material.poisson_ratio > largest)
     refuse(layer.find("material.poisson_ratio")->second.place, "material.poisson_ratio",
            fmt::format("must be at most {} with bonds.elasticity = \"matched\", not {}", largest,

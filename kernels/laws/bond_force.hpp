@@ -18,16 +18,16 @@ struct BondAction {
 /// N, on lo.
 template <class R>
 inline Vec<R> force_on_lo(const BondAction<R>& action, const Pair<R>& pair) {
-  return action.along * pair.normal + action.shear;
+  return action.along * pair.normal + action.shear;  // (P18)
 }
 
 /// Advances the history of a bond, given the motion of its ends over the step.
 template <Features features, class Law, class R>
 inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, const Pair<R>& pair,
                                  BondHistory<R>& h) {
-  const R u = pair.distance - bond.rest_length;
+  const R u = pair.distance - bond.rest_length;  // (P26)
   const Vec<R> carried = carry<features.rotation>(h.shear, pair);
-  h.shear = carried + (R(law.shear_ratio) * bond.stiffness) * pair.slip;
+  h.shear = carried + (R(law.shear_ratio) * bond.stiffness) * pair.slip;  // (B20) (P37)
   R elastic = u;
   if constexpr (features.plasticity) {
     h.plastic_stretch = plastic_stretch(law, bond, u, h.plastic_stretch);
@@ -42,8 +42,9 @@ inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, c
 
   R total = f.normal;
   if constexpr (features.contact_damping) {
+    // (P29)
     total += f.damper * bond.damping * pair.rate;
-    if constexpr (features.breakage) {  // a broken bond never pulls (MODEL section 2)
+    if constexpr (features.breakage) {  // a broken bond never pulls (B12)
       const auto broken = h.damage_normal >= R(1.0) || h.damage_shear >= R(1.0);
       total = select(broken && total > R(0.0), R(0.0), total);
     }

@@ -30,7 +30,7 @@ struct LawStandard {
   std::string_view key, value;
 };
 
-/// k_n, N/m, of a bond with this area and length.
+/// k_n, N/m, of a bond with this area and length. (P30)
 template <class Law>
 inline double stiffness_of(const Law& law, double area, double length) {
   return law.young * area / length;

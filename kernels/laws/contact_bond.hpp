@@ -1,7 +1,7 @@
 // The contact bond of discs: a point of glue with stiffnesses and strengths that do not depend on the size of
 // the discs; Coulomb friction once it is broken. Fakhimi and Villegas, "Application of dimensional analysis
 // in calibration of a discrete element model for rock deformation and fracture", Rock Mech. Rock Engng 40
-// (2007) 193-211; MODEL section 5.
+// (2007) 193-211; docs/model.md, "contact-bond".
 #pragma once
 #include <array>
 
@@ -41,11 +41,12 @@ struct ContactBondLaw {
   void never_yield() {}
 };
 
+// (B28)
 inline double stiffness_of(const ContactBondLaw& law, double, double) { return law.stiffness; }
 
 template <class R>
 inline BondLimits<R> limits_of(const ContactBondLaw& law, const BondConstants<R>&) {
-  return {R(law.normal_strength), R(law.shear_strength)};
+  return {R(law.normal_strength), R(law.shear_strength)};  // (B28)
 }
 
 }  // namespace breccia

@@ -1,6 +1,7 @@
 // The Dempack law: three-slope plasticity in compression; tension, shear and friction as in failure.hpp.
 // Onate, Zarate, Miquel, Santasusana et al., "A local constitutive model for the discrete element method.
-// Application to geomaterials and concrete", Comput. Part. Mech. 2 (2015), eqs. 21-52; MODEL section 3.
+// Application to geomaterials and concrete", Comput. Part. Mech. 2 (2015), eqs. 21-53;
+// docs/model.md, "Dempack law, normal direction".
 #pragma once
 #include <array>
 
@@ -38,9 +39,9 @@ struct DempackLaw {
     law.limit_stress = m.limit_compressive_stress;
     double strain = 0.0, reached = 0.0, slope = m.young_modulus;
     for (std::size_t k = 0; k < 3; ++k) {
-      strain += (law.limit_stress[k] - reached) / slope;
+      strain += (law.limit_stress[k] - reached) / slope;  // (B17)
       reached = law.limit_stress[k];
-      slope = m.young_modulus / m.stiffness_reduction[k];
+      slope = m.young_modulus / m.stiffness_reduction[k];  // (P53)
       law.limit_strain[k] = strain;
       law.slope[k] = slope;
     }
@@ -49,7 +50,7 @@ struct DempackLaw {
   void never_yield() { limit_stress.fill(std::numeric_limits<double>::infinity()); }
 };
 
-/// Stress of the loading envelope at compressive strain e, Pa (positive). Onate et al. 2015, figure 7.
+/// Stress of the loading envelope at compressive strain e, Pa (positive). (B17)
 template <class R>
 inline R envelope_stress(const DempackLaw& law, const R& e) {
   const auto part = [](const R& a, double from, double to) {
@@ -60,7 +61,8 @@ inline R envelope_stress(const DempackLaw& law, const R& e) {
          R(law.slope[1]) * part(e, e2, e3) + R(law.slope[2]) * larger(R(0.0), e - R(e3));
 }
 
-/// Puts a compressive trial above the envelope back onto it; the plastic stretch takes the rest (eqs. 50-52).
+/// Puts a compressive trial above the envelope back onto it; the plastic stretch takes the rest
+/// (P52).
 template <class R>
 inline R plastic_stretch(const DempackLaw& law, const BondConstants<R>& bond, const R& u, const R& before) {
   const R trial = -bond.stiffness * (u - before);  // N, positive in compression
@@ -68,7 +70,7 @@ inline R plastic_stretch(const DempackLaw& law, const BondConstants<R>& bond, co
   if (!any(above_first)) return before;
   const R strain = -u * bond.stiffness / (R(law.young) * bond.area);  // -u/strain_length
   const R limit = envelope_stress(law, strain) * bond.area;
-  return select(above_first && trial > limit, u + limit / bond.stiffness, before);
+  return select(above_first && trial > limit, u + limit / bond.stiffness, before);  // (P52)
 }
 
 }  // namespace breccia

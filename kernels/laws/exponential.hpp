@@ -1,7 +1,7 @@
 // Concrete under high confinement: linear up to a compressive strain, then a secant stiffness that falls and,
 // as pores close, rises exponentially; Mohr-Coulomb in shear. Tran, Donze and Marin, "Discrete element
 // modelling of concrete under high-triaxial loading", Cem. Concr. Compos. 33 (2011), as in the Arrufat
-// thesis, section 4.3; MODEL section 5.
+// thesis, section 4.3; docs/model.md, "Exponential".
 #pragma once
 #include <array>
 
@@ -35,7 +35,7 @@ struct ExponentialLaw {
     law.young = m.young_modulus;
     law.shear_ratio = shear_ratio;
     law.failure = failure_of(m, law.young, shear_ratio);
-    law.failure.friction_pulled = m.friction_static;  // S = max(0, C A - F_n tan phi), F_n of either sign
+    law.failure.friction_pulled = m.friction_static;  // (B27): F_n of either sign
     law.strain_limit = m.own.at("elastic_strain_limit");
     law.factor = m.own.at("hardening_factor");
     law.rate = m.own.at("hardening_rate");
@@ -46,14 +46,15 @@ struct ExponentialLaw {
   void never_yield() { strain_limit = std::numeric_limits<double>::infinity(); }
 };
 
-/// K2/k_n at compressive strain e beyond e_max: min(1, gamma_3 + gamma_1 exp(gamma_2 (e - e_max))).
+/// (B25): K2/k_n at compressive strain e beyond e_max:
+/// min(1, gamma_3 + gamma_1 exp(gamma_2 (e - e_max))).
 template <class R>
 inline R secant_ratio(const ExponentialLaw& law, const R& e) {
   const R x = smaller(R(law.rate) * (e - R(law.strain_limit)), R(larger(law.most, 0.0)));
   return smaller(R(1.0), R(law.floor) + R(law.factor) * exponential(x));
 }
 
-/// Puts a compressive trial above the envelope k_n L e_max + K2 L (e - e_max) back onto it.
+/// Puts a compressive trial above the envelope k_n L e_max + K2 L (e - e_max) back onto it. (B26)
 template <class R>
 inline R plastic_stretch(const ExponentialLaw& law, const BondConstants<R>& bond, const R& u,
                          const R& before) {

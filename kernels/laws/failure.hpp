@@ -1,8 +1,8 @@
 // How a bond fails: linear softening in tension and shear with secant unloading, a shear strength that grows
 // with pressure, Coulomb friction after failure. Onate, Zarate, Miquel, Santasusana et al., "A local
 // constitutive model for the discrete element method. Application to geomaterials and concrete", Comput.
-// Part. Mech. 2 (2015), eqs. 21-49; every point the paper leaves open as in MODEL sections 3 and 4. Tension
-// and elongation are positive.
+// Part. Mech. 2 (2015), eqs. 21-49; every point that the paper leaves open as in docs/model.md,
+// "Tension" and "Dempack law, shear". Tension and elongation are positive.
 #pragma once
 #include "kernels/laws/bond.hpp"
 #include "kernels/laws/features.hpp"
@@ -17,13 +17,13 @@ struct Failure {
   double friction_pressed = 0;  ///< mu_1: shear strength gained per pressure
   double friction_pulled = 0;   ///< shear strength lost per pull: mu_1 of a Mohr-Coulomb line, else 0
   double friction_dynamic = 0;  ///< mu_2, once broken
-  /// delta = max(0, softening + softening_length/L): the first alone for a given delta, {-1, 2 E
-  /// G/strength^2} for a given fracture energy (MODEL section 3)
+  /// delta = max(0, softening + softening_length/L): the first alone for a given delta,
+  /// {-1, 2 E G/strength^2} for a given fracture energy (B18)
   double softening_normal = 0, softening_normal_length = 0;  ///< 1, m
   double softening_shear = 0, softening_shear_length = 0;    ///< 1, m
 };
 
-/// Limits of a bond whose strengths are stresses.
+/// Limits of a bond whose strengths are stresses. (P42)
 template <class R>
 inline BondLimits<R> limits_of(const Failure& failure, const BondConstants<R>& bond) {
   return {R(failure.tensile_strength) * bond.strength_area, R(failure.shear_strength) * bond.strength_area};
@@ -35,10 +35,9 @@ inline Failure failure_of(const Material& m, double young, double shear_ratio) {
   f.tensile_strength = m.tensile_strength;
   f.shear_strength = m.shear_strength;
   f.friction_pressed = m.friction_static;
-  f.friction_pulled = m.criterion == Criterion::mohr_coulomb ? m.friction_static : 0.0;
+  f.friction_pulled = m.criterion == Criterion::mohr_coulomb ? m.friction_static : 0.0;  // (B23)
   f.friction_dynamic = m.friction_dynamic;
-  // delta = 2 E G_I/(sigma_t^2 L) - 1 and 2 k_s G_II/(tau_f^2 A) - 1, with k_s = kappa E A/L (MODEL section
-  // 3)
+  // (B18): delta = 2 E G_I/(sigma_t^2 L) - 1 and 2 k_s G_II/(tau_f^2 A) - 1, k_s = kappa E A/L
   f.softening_normal = m.damage_normal;
   if (m.fracture_energy_normal) {
     f.softening_normal = -1.0;
@@ -54,14 +53,14 @@ inline Failure failure_of(const Material& m, double young, double shear_ratio) {
   return f;
 }
 
-/// Secant stiffness left at damage D: the force falls linearly to zero while the displacement grows by 1 +
-/// delta.
+/// (P46): secant stiffness left at damage D; the force falls linearly to zero while the
+/// displacement grows by 1 + delta.
 template <class R>
 inline R softening(const R& damage, const R& delta) {
   return (R(1.0) - damage) / (R(1.0) + delta * damage);
 }
 
-/// Damage at a displacement `ratio` times the elastic limit; delta = 0 is brittle.
+/// (P49): damage at a displacement `ratio` times the elastic limit; delta = 0 is brittle.
 template <class R>
 inline R damage_at(const R& ratio, const R& delta) {
   return select(delta > R(0.0), larger(R(0.0), smaller(R(1.0), (ratio - R(1.0)) / delta)), R(1.0));
@@ -105,9 +104,9 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
     const auto intact_pull = pulled && !broken;
     const R a = normal / limits.tension;
     const R b = square_root(dot(h.shear, h.shear)) / limits.cohesion;
-    const R r = a + b;
+    const R r = a + b;  // (B24)
     if (any(intact_pull && (r > one || h.damage_normal > zero || h.damage_shear > zero))) {
-      const R delta = (delta_along() * a + delta_across() * b) / r;
+      const R delta = (delta_along() * a + delta_across() * b) / r;  // (B24)
       const auto grows = intact_pull && r > one + delta * h.damage_normal;
       const R damage = select(grows, larger(h.damage_normal, damage_at(r, delta)), h.damage_normal);
       const auto fails = grows && damage >= one;
@@ -121,7 +120,7 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
     }
   } else {
     const auto intact_pull = pulled && !broken;
-    const auto over = intact_pull && normal > limits.tension;
+    const auto over = intact_pull && normal > limits.tension;  // (P41)
     if (any(over || (intact_pull && h.damage_normal > zero))) {
       const R delta = delta_along();
       if (any(over)) {
@@ -129,7 +128,7 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
         h.damage_normal = select(over, damage, h.damage_normal);
         broken = broken || h.damage_normal >= one;
       }
-      g_normal = select(intact_pull, softening(h.damage_normal, delta), one);
+      g_normal = select(intact_pull, softening(h.damage_normal, delta), one);  // (P46)
     }
   }
   normal = g_normal * normal;
@@ -138,6 +137,7 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
   const R pressure = larger(-normal, zero);
   const R friction = R(failure.friction_dynamic) * pressure;
   const R pull = larger(normal, zero);
+  // (P42) (B23)
   const R strength = larger(
       zero, limits.cohesion + R(failure.friction_pressed) * pressure - R(failure.friction_pulled) * pull);
 
@@ -157,11 +157,11 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
     g_shear = secant();
     if (any(beyond)) {
       const R trial = square_root(trial2);
-      const auto grows = beyond && trial > strength * (one + delta * h.damage_shear);
+      const auto grows = beyond && trial > strength * (one + delta * h.damage_shear);  // (B21)
       const R damage = larger(h.damage_shear, damage_at(trial / strength, delta));
       const auto fails = grows && (damage >= one || (one - damage) * strength <= friction);
       // the force that a failing bond hands over to friction is the one it carried before this step's damage
-      h.shear = select(fails, g_shear * h.shear, h.shear);
+      h.shear = select(fails, g_shear * h.shear, h.shear);  // (B21)
       if constexpr (coupled) h.damage_normal = select(grows && !fails, damage, h.damage_normal);
       h.damage_shear = select(grows, select(fails, one, damage), h.damage_shear);
       broken = broken || fails;
@@ -173,15 +173,16 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
   R damper = g_normal;
   if (any(broken)) {
     const auto apart = broken && pulled;
-    normal = select(apart, zero, normal);
+    normal = select(apart, zero, normal);  // (B22)
     damper = select(apart, zero, damper);
     const R limit = select(pulled, zero, friction);
     const R size2 = dot(h.shear, h.shear);
     const auto slides = broken && size2 > limit * limit;
+    // (P45)
     if (any(slides)) h.shear = select(slides, (limit / square_root(size2)) * h.shear, h.shear);
     g_shear = select(broken, one, g_shear);
   }
-  return {normal, damper, g_shear, g_shear * h.shear};
+  return {normal, damper, g_shear, g_shear * h.shear};  // (P37)
 }
 
 }  // namespace breccia

@@ -3,7 +3,8 @@
 
 namespace breccia {
 
-/// How tension and shear share the strength of a bond (MODEL: uncoupled is the paper's default).
+/// How tension and shear share the strength of a bond: uncoupled, the paper's, is the default.
+/// docs/model.md, "Dempack law, shear".
 enum class Criterion : unsigned char { uncoupled, coupled, mohr_coulomb };
 
 /// How bonds are stored in the loop. Places, forces and sums are doubles always.

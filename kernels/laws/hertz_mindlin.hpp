@@ -29,7 +29,7 @@ inline HertzMindlin hertz_mindlin(const ElasticBody& a, const ElasticBody& b, do
     return (2.0 - e.poisson) * 2.0 * (1.0 + e.poisson) / e.young;
   };
   const double root = 1.0 / std::sqrt(a.curvature + b.curvature);
-  return {4.0 / 3.0 * root / (normal_compliance(a) + normal_compliance(b)),
+  return {4.0 / 3.0 * root / (normal_compliance(a) + normal_compliance(b)),  // (B34) (B35) (B36)
           8.0 * root / (shear_compliance(a) + shear_compliance(b)),
           2.0 * std::sqrt(5.0 / 6.0) * xi / std::sqrt(a.inverse_mass + b.inverse_mass), friction};
 }
@@ -65,18 +65,19 @@ inline Vec3 hertz_mindlin_force(const HertzMindlin& contact, HertzForm form, dou
                                 const Pair<double>& pair, double dt, ContactMemory& memory) {
   const bool classic = form == HertzForm::classic;
   const double root = std::sqrt(overlap), stiffness = contact.tangential * root;
-  const double spring = contact.normal * overlap * root;
+  const double spring = contact.normal * overlap * root;  // (B34)
   const double damped = spring - contact.damping * std::sqrt(1.5 * contact.normal * root) * pair.rate;
   const double pressed = classic ? damped : larger(0.0, damped);
   const bool softens = overlap < memory.overlap, stiffens = classic && memory.overlap > 0.0;
+  // (B35)
   if (softens || stiffens) memory.shear = std::sqrt(overlap / memory.overlap) * memory.shear;
   memory.shear += stiffness * pair.slip;
   memory.overlap = overlap;
-  const double limit = contact.friction * (classic ? spring : pressed);
+  const double limit = contact.friction * (classic ? spring : pressed);  // (B37)
   const bool slides = dot(memory.shear, memory.shear) > limit * limit;
   memory.shear = cut_to(memory.shear, limit);
   Vec3 across = memory.shear;
-  if (!slides) across += (contact.damping * std::sqrt(stiffness) / dt) * pair.slip;
+  if (!slides) across += (contact.damping * std::sqrt(stiffness) / dt) * pair.slip;  // (B36)
   return (classic ? across : cut_to(across, limit)) - pressed * pair.normal;
 }
 

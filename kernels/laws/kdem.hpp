@@ -1,7 +1,7 @@
 // The elastic-brittle law of KDEM: no plasticity, no softening; the stiffness stands on the areas of virtual
 // polyhedra, with factors alpha on k_n and beta on k_s. Santasusana, "Kratos DEM, a parallel code for
 // concrete testing simulations using the discrete element method", MSc thesis, eqs. 4.33, 4.34 (without the
-// second pi) and 5.7; MODEL section 5.
+// second pi) and 5.7; docs/model.md, "kdem".
 #pragma once
 #include <array>
 
@@ -28,7 +28,8 @@ struct KdemLaw {
   static KdemLaw of(const Material& m, double shear_ratio) {
     KdemLaw law;
     const double alpha = m.own.at("normal_factor"), beta = m.own.at("shear_factor");
-    law.young = alpha * m.young_modulus;
+    law.young = alpha * m.young_modulus;  // (S5.7)
+    // (S5.7)
     law.shear_ratio = beta / alpha * shear_ratio;
     law.failure = failure_of(m, law.young, law.shear_ratio);
     return law;

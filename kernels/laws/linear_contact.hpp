@@ -1,5 +1,6 @@
 // The linear frictional contact of two surfaces that were never bonded: a spring and a dashpot that never
-// pull, Coulomb friction by radial return. MODEL section 6; Onate et al. 2015, eqs. 30, 36, 45.
+// pull, Coulomb friction by radial return: docs/model.md, "In bonded scenes"; Onate et al.
+// 2015, eqs. 30, 36, 45.
 #pragma once
 #include "kernels/laws/pair_kinematics.hpp"
 
@@ -18,10 +19,12 @@ struct ContactConstants {
 inline Vec3 linear_contact_force(const ContactConstants& contact, double overlap, const Pair<double>& pair,
                                  Vec3& shear) {
   const double spring = contact.stiffness * overlap;  // N, positive in compression
+  // (S3.17)
   const double limit = contact.friction * spring;
   const double size = norm(shear);
   if (size > limit) shear = (limit / size) * shear;
   // surfaces that just meet (overlap 0, as unbonded overlaps do at the start) are not yet damped
+  // (B32)
   const double total = overlap > 0.0 ? larger(0.0, spring - contact.damping * pair.rate) : 0.0;
   return shear - total * pair.normal;
 }

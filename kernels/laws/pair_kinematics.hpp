@@ -1,5 +1,5 @@
-// How the two ends of a bond or contact move against each other. MODEL section 4; Onate et al. 2015, eqs.
-// 24-27.
+// How the two ends of a bond or contact move against each other: docs/model.md, "Pairs"; Onate et
+// al. 2015, eqs. 24-27 and 34.
 #pragma once
 #include "kernels/math/lanes.hpp"
 
@@ -13,7 +13,7 @@ struct End {
   Vec<R> w;  ///< 1/s
 };
 
-/// Both ends as their differences, which is all that matters.
+/// Both ends as their differences, hi minus lo, which is all that matters.
 template <class R>
 struct Ends {
   Vec<R> branch;           ///< m, x_hi - x_lo
@@ -48,7 +48,7 @@ inline Pair<R> relative_motion(const Ends<R>& ends, const R& arm_offset, double 
   Pair<R> p;
   // a step turns and stretches a pair little, so the distance before it, d0, needs neither root nor division:
   // d/d0 is a short series. Products that do not wait for each other come first
-  const Vec<R> before = l - step * dv;
+  const Vec<R> before = l - step * dv;  // (B4)
   const R square = dot(l, l), per_square = R(1.0) / square;
   p.distance = square_root(square);
   const R per_distance = p.distance * per_square;
@@ -56,20 +56,20 @@ inline Pair<R> relative_motion(const Ends<R>& ends, const R& arm_offset, double 
   p.normal = per_distance * l;
   p.normal_before = (per_distance * shrunk) * before;
   p.turn_cosine = dot(before, l) * per_square * shrunk;
-  p.rate = dot(dv, p.normal);
+  p.rate = dot(dv, p.normal);  // (P26)
   Vec<R> at_contact = dv - p.rate * p.normal;
   if constexpr (rotation) {
     // arms times spins, as mean and difference of the ends: the same bits whichever end comes first, also
     // where the compiler fuses a product with a sum
-    at_contact -= cross(R(0.5) * ends.spin_sum + arm_offset * ends.spin_difference, l);
+    at_contact -= cross(R(0.5) * ends.spin_sum + arm_offset * ends.spin_difference, l);  // (B3)
     p.twist = R(0.5 * dt) * dot(ends.spin_sum, p.normal);
   }
-  p.slip = step * at_contact;
+  p.slip = step * at_contact;  // (P34)
   return p;
 }
 
-/// m, by which the pair became longer in this step: (d^2 - d0^2)/(d + d0), without the difference of two large
-/// numbers.
+/// (B6): m, by which the pair became longer in this step: (d^2 - d0^2)/(d + d0), without the
+/// difference of two large numbers.
 template <class R>
 inline R elongation(const Ends<R>& ends, const Pair<R>& p, double dt) {
   const Vec<R> moved = R(dt) * ends.velocity, before = ends.branch - moved;
@@ -77,7 +77,7 @@ inline R elongation(const Ends<R>& ends, const Pair<R>& p, double dt) {
 }
 
 /// Carries a tangential vector along with the pair: the turn of the normal, then the mean twist about it.
-/// Its length does not change.
+/// Its length does not change. (B5)
 template <bool rotation, class R>
 inline Vec<R> carry(const Vec<R>& f, const Pair<R>& p) {
   const R along = R(0.5) * dot(f, p.normal) * inverse_near_one(R(0.5) + R(0.5) * p.turn_cosine);

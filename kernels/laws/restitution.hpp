@@ -1,4 +1,5 @@
-// Damping of a contact from its coefficient of restitution, and back. MODEL section 6.
+// Damping of a contact from its coefficient of restitution, and back.
+// docs/model.md, "Impacts".
 //
 // A linear contact m u'' + c u' + k u = 0 with xi = c/(2 sqrt(m k)) that never pulls is over when its total
 // force comes down to zero, still overlapping: e = exp(-(pi - 2 phi) tan phi), phi = asin xi (Schwager and
@@ -14,7 +15,7 @@
 
 namespace breccia {
 
-/// Rebound speed over approach speed of a contact that never pulls.
+/// Rebound speed over approach speed of a contact that never pulls. (B33)
 /// @param xi  fraction of critical damping, 0 or more
 inline double restitution_of_damping(double xi) {
   if (xi < 1.0) {
@@ -39,7 +40,8 @@ inline double damping_of_restitution(double e) {
 }
 
 /// The same for a contact that is over only when its surfaces part, and so pulls at the end:
-/// e = exp(-pi xi/sqrt(1 - xi^2)) (Tsuji, Tanaka and Ishida, Powder Technol. 71, 1992, in closed form).
+/// e = exp(-pi xi/sqrt(1 - xi^2)) (S3.10) (Tsuji, Tanaka and Ishida, Powder Technol. 71, 1992, in
+/// closed form).
 inline double damping_of_restitution_with_pull(double e) {
   const double log = std::log(e);
   return -log / std::sqrt(log * log + std::numbers::pi * std::numbers::pi);

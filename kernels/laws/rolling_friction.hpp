@@ -11,7 +11,8 @@ inline Vec3 rolling_spin(const Vec3& spin_lo, const Vec3& spin_hi, const Vec3& n
   return relative - dot(relative, normal) * normal;
 }
 
-/// Torque on lo, N m: of constant size against the rolling, but never more than stops it within the step.
+/// (B38): torque on lo, N m: of constant size against the rolling, but never more than stops it
+/// within the step.
 /// @param limit    N m, mu_r R* F_n
 /// @param inertia  kg m^2, reduced moment of inertia of the two ends
 inline Vec3 constant_rolling_torque(const Vec3& rolling, double limit, double inertia, double dt) {
@@ -20,7 +21,7 @@ inline Vec3 constant_rolling_torque(const Vec3& rolling, double limit, double in
   return (-smaller(limit, inertia * rate / dt) / rate) * rolling;
 }
 
-/// Torque on lo, N m: a spring of stiffness 2.25 k_n (mu_r R*)^2 that yields at the limit.
+/// (B38): torque on lo, N m: a spring of stiffness 2.25 k_n (mu_r R*)^2 that yields at the limit.
 /// @param torque     N m, of the step before
 /// @param stiffness  N/m, k_n at the present overlap
 /// @param lever      m, mu_r R*

@@ -1,4 +1,5 @@
-// What a bond carries, stores and has left, as functions of its state alone. MODEL sections 9 and 11.
+// What a bond carries, stores and has left, as functions of its state alone.
+// docs/model.md, "Energy ledger" and "Stress".
 #pragma once
 #include "kernels/laws/bond_laws.hpp"
 
@@ -46,6 +47,7 @@ inline double stored_energy(const Law& law, const BondConstants<double>& bond, c
   else
     s = secant_of(law, bond, h, distance, coupled);
   const double shear2 = dot(h.shear, h.shear);  // of k_s times the secant displacement, or of the friction
+  // (B50)
   const double normal_part = 0.5 * bond.stiffness * s.normal * s.elastic * s.elastic;
   if (!(law.shear_ratio > 0.0)) return normal_part;
   return normal_part + 0.5 * s.shear * shear2 / (law.shear_ratio * bond.stiffness);
@@ -59,8 +61,8 @@ inline BondForce<double> force_of_state(const Law& law, const BondConstants<doub
   return {s.normal * bond.stiffness * s.elastic, s.normal, s.shear, s.shear * h.shear};
 }
 
-/// How near a bond is to failure: max(F_s/S, u_e/u_nf), 1 once broken. Santasusana's thesis, eq. 5.21, with
-/// the stretch at which tension has softened to nothing for u_nf.
+/// How near a bond is to failure: max(F_s/S, u_e/u_nf), 1 once broken (S5.21), with the stretch at
+/// which tension has softened to nothing for u_nf.
 template <class Law>
 inline double failure_state(const Law& law, const BondConstants<double>& bond, const BondHistory<double>& h,
                             double distance, bool coupled) {

@@ -1,6 +1,7 @@
-// Where the work goes that a bond takes up in a step and does not store. MODEL section 9: the scheme changes
-// the kinetic energy by the trapezoid 1/2 (F(n-1) + F(n)).dx of every force, exactly; so every loss is booked
-// by the same trapezoid, with the forces that the step before ended with.
+// Where the work goes that a bond takes up in a step and does not store: docs/model.md, "Energy
+// ledger". The scheme changes the kinetic energy by the trapezoid 1/2 (F(n-1) + F(n)).dx of every
+// force, exactly; so every loss is booked by the same trapezoid, with the forces that the step
+// before ended with.
 #pragma once
 #include "kernels/laws/bond_force.hpp"
 
@@ -24,8 +25,8 @@ struct LastForces {
   R shear_factor;  ///< g of k_s
 };
 
-/// J, that the damage of the normal direction has cost: D_n 1/2 sigma_t A u_l (1 + delta_n), u_l the stretch
-/// at which softening begins.
+/// (B52): J, that the damage of the normal direction has cost:
+/// D_n 1/2 sigma_t A u_l (1 + delta_n), u_l the stretch at which softening begins.
 /// @param tension  N, largest
 template <class R>
 inline R damage_energy(const R& damage, const R& tension, const R& stiffness, const R& delta) {
@@ -54,16 +55,16 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
   BondLosses<R> loss;
   const R mean_spring = half * (last.spring + action.spring);
   const R viscous = action.along - action.spring;
-  loss.viscous = half * (last.viscous + viscous) * stretch;
+  loss.viscous = half * (last.viscous + viscous) * stretch;  // (B55)
 
   const R k_s = R(law.shear_ratio) * bond.stiffness;
   const R compliance = select(k_s > zero, half / k_s, zero);  // none of padding
   const R shear_work = half * dot(last.shear_factor * action.carried + action.shear, pair.slip);
   const R shear_kept = compliance * (action.shear_factor * dot(h.shear, h.shear) -
                                      last.shear_factor * dot(action.carried, action.carried));
-  R shear_loss = shear_work - shear_kept;
+  R shear_loss = shear_work - shear_kept;  // (B53)
   if constexpr (features.plasticity)
-    loss.plastic = mean_spring * (h.plastic_stretch - before.plastic_stretch);
+    loss.plastic = mean_spring * (h.plastic_stretch - before.plastic_stretch);  // (B51)
 
   if constexpr (features.breakage) {
     const auto was_broken = before.damage_normal >= one || before.damage_shear >= one;
@@ -87,7 +88,7 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
         normal_loss -= damage_energy(h.damage_normal - before.damage_normal, limits_of(law, bond).tension,
                                      bond.stiffness, delta);
       }
-      loss.failure = select(breaks, normal_loss + shear_loss, zero);
+      loss.failure = select(breaks, normal_loss + shear_loss, zero);  // (B54)
       if constexpr (features.criterion == Criterion::coupled)
         loss.damage = select(coupled_damage && !breaks, normal_loss, zero);
     }

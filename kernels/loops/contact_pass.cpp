@@ -25,10 +25,11 @@ void book(const ContactPassIn& in, const ContactPassHistory& history, std::size_
   const double viscous = along + contact.stiffness * overlap;
   const Vec3& shear = history.shear_force[c];
   ContactLosses& loss = history.losses[c / LoadBlock::capacity];
+  // (B55)
   loss.viscous += 0.5 * (history.viscous_force[c] + viscous) * elongation(ends, pair, in.dt);
   const double k_s = contact.shear_ratio * contact.stiffness;
   const double kept = k_s > 0.0 ? 0.5 * (dot(shear, shear) - dot(carried, carried)) / k_s : 0.0;
-  loss.friction += 0.5 * dot(carried + shear, pair.slip) - kept;
+  loss.friction += 0.5 * dot(carried + shear, pair.slip) - kept;  // (B53)
   history.viscous_force[c] = viscous;
 }
 
@@ -81,7 +82,7 @@ void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, st
         in.rotation ? release<true>(in, history, c) : release<false>(in, history, c);
         // a pair that overlapped unbonded from the start presses at its initial distance until it has parted
         const double touch = in.radius[in.row_lo[c]] + in.radius[in.row_hi[c]];
-        if (dot(l, l) >= touch * touch) history.free_length[c] = touch;
+        if (dot(l, l) >= touch * touch) history.free_length[c] = touch;  // (B31)
       }
       block.load[k] = {force, moment};
     }

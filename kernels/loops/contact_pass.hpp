@@ -7,7 +7,7 @@
 
 namespace breccia {
 
-/// What contacts take up and do not give back, J. MODEL section 9.
+/// What contacts take up and do not give back, J: docs/model.md, "Energy ledger".
 struct ContactLosses {
   double viscous = 0, friction = 0;
 };

@@ -1,5 +1,5 @@
-// Central differences with velocities at half steps and non-viscous global damping. MODEL sections 1 and 7;
-// Onate et al. 2015, eqs. 5-10, 39, 40.
+// Central differences with velocities at half steps and non-viscous global damping: docs/model.md,
+// "Particles" and "Global damping"; Onate et al. 2015, eqs. 5-10, 39, 40.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -15,7 +15,7 @@ struct GlobalDamping {
   double translation = 0, rotation = 0;
 };
 
-/// F - alpha |F| v/|v|; F where v is zero.
+/// F - alpha |F| v/|v|; F where v is zero. (P39) (P40)
 inline Vec3 damped(const Vec3& force, const Vec3& velocity, double alpha) {
   const double speed2 = dot(velocity, velocity);
   if (!(speed2 > 0.0)) return force;
@@ -36,7 +36,7 @@ using IntegrateFree = void (*)(const Motion& m, std::size_t first, std::size_t l
 IntegrateFree integrate_free_for(InstructionSet set);
 
 /// J, of the kicks to come: kinetic energy between the velocities before and after them, and what global
-/// damping takes over the half steps before and after (MODEL section 9).
+/// damping takes over the half steps before and after (B48) (B56).
 struct MotionWork {
   double kinetic = 0, motion_this = 0, motion_next = 0, spin_this = 0, spin_next = 0;
 };
@@ -46,7 +46,7 @@ using WorkOfFree = MotionWork (*)(const Motion& m, std::size_t first, std::size_
                                   const GlobalDamping& damping);
 WorkOfFree work_of_free_for(InstructionSet set);
 
-/// Motion that a body's rows share: z is prescribed; x and y too, unless they are free.
+/// Motion that a body's rows share: z is prescribed; x and y too, unless they are free. (B64)
 struct HeldMotion {
   Vec3 velocity;              ///< m/s
   bool lateral_free = false;  ///< x and y follow the forces
@@ -56,7 +56,7 @@ struct HeldMotion {
 void integrate_held(const Motion& m, std::size_t first, std::size_t last, double dt,
                     const GlobalDamping& damping, const HeldMotion& held);
 
-/// I = factor m r^2: of a sphere or a disc.
+/// I = factor m r^2: of a sphere or a disc. (B2)
 inline constexpr double sphere_inertia_factor = 0.4, disc_inertia_factor = 0.5;
 
 /// Moment of inertia, kg m^2.

@@ -35,11 +35,13 @@ template <bool spins>
   k.speeds = products(k.velocity, k.velocity, k.spin, k.spin);
   const Two moves = k.speeds > Two{} ? square_roots(products(force, force, torque, torque) / k.speeds)
                                      : Two{};  // 0/0 where at rest
+  // (P39) (P40)
   k.held = Two{damping.translation, damping.rotation} * moves;
   const double mass = m.mass[row];
   k.inertia = Two{mass, spins ? m.inertia_factor * mass * m.radius[row] * m.radius[row] : mass};
   const Two kick = Two{dt, dt} / k.inertia;
-  k.new_velocity = k.velocity + kick[0] * (force - k.held[0] * k.velocity);
+  k.new_velocity = k.velocity + kick[0] * (force - k.held[0] * k.velocity);  // (P1) (P6)
+  // (P2) (P9)
   k.new_spin = spins ? k.spin + kick[1] * (torque - k.held[1] * k.spin) : rest;
   return k;
 }
@@ -50,7 +52,7 @@ void kick_and_drift(const Motion& m, std::size_t first, std::size_t last, double
   for (std::size_t row = first; row < last; ++row) {
     const Kicked k = kicked<spins>(m, row, dt, damping);
     four(m.velocity[row]) = k.new_velocity;
-    four(m.position[row]) += dt * k.new_velocity;
+    four(m.position[row]) += dt * k.new_velocity;  // (P7)
     four(m.force[row]) = Four{};
     if constexpr (spins) {
       four(m.spin[row]) = k.new_spin;
@@ -66,7 +68,8 @@ MotionWork work_of_kicks(const Motion& m, std::size_t first, std::size_t last, d
   for (std::size_t row = first; row < last; ++row) {
     const Kicked k = kicked<spins>(m, row, dt, damping);
     const Two across = products(k.velocity, k.new_velocity, k.spin, k.new_spin);
-    twice_kinetic += k.inertia * across;
+    twice_kinetic += k.inertia * across;  // (B48)
+    // (B56)
     held_this += k.held * k.speeds;
     held_next += k.held * across;
   }

@@ -25,10 +25,10 @@ struct LoadBlock {
 
 /// Where a range of bonds may add its forces.
 /// own:     plain adds to rows `to_lo`, `to_hi` that no other range touches (particles, or the range's own
-///          sums)
+///          sums) (B92)
 /// atomic:  as own, but a row with the top bit set is a particle that other ranges touch too: added
-///          atomically
-/// column:  one load per bond, summed later in a fixed order
+///          atomically (B93)
+/// column:  one load per bond, summed later in a fixed order (B94)
 enum class ScatterMode : unsigned char { own, atomic, column };
 
 inline constexpr Index shared_row = 0x80000000u;

@@ -41,10 +41,10 @@ template <bool torques, class Add>
     const Index lo = to.to_lo[first + k], hi = to.to_hi[first + k];
     const Four &force = four(block.load[k].force), &moment = four(block.load[k].moment);
     add(forces, lo, force);
-    add(forces, hi, -force);
+    add(forces, hi, -force);  // (P3) (P18)
     if constexpr (torques) {
       const double offset = to.arm_offset[first + k];
-      add(moments, lo, (0.5 + offset) * moment);
+      add(moments, lo, (0.5 + offset) * moment);  // (P4) (B3)
       add(moments, hi, (0.5 - offset) * moment);
     }
   }

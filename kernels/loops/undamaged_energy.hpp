@@ -18,7 +18,7 @@ struct BondEnergyIn {
   double shear_ratio = 0;  ///< k_s/k_n
 };
 
-/// J, of those bonds [first, last) without damage: 1/2 k_n u_e^2 + |F_s|^2/(2 k_s). MODEL section 9.
+/// J, of those bonds [first, last) without damage: 1/2 k_n u_e^2 + |F_s|^2/(2 k_s). (B50)
 using UndamagedEnergy = double (*)(const BondEnergyIn&, std::size_t first, std::size_t last);
 UndamagedEnergy undamaged_energy_for(InstructionSet set);
 

@@ -1,5 +1,5 @@
-// Walls that particles meet: planes, the insides of cylinders, triangles. Each is known by its point nearest
-// to a place; a sphere touches it where that point is nearer than its radius.
+// Walls that particles meet: planes, the insides of cylinders, triangles (B39). Each is known by
+// its point nearest to a place; a sphere touches it where that point is nearer than its radius.
 #pragma once
 #include <algorithm>
 

@@ -160,7 +160,7 @@ Shares shares(const Assembly& a, double section, Space space = Space::solid) {
 
 }  // namespace
 
-TEST_CASE("bond area: two spheres by the four rules [MODEL 2 rel 1e-14]") {
+TEST_CASE("bond area: two spheres by the four rules [(P21) (S4.32) rel 1e-14]") {
   Assembly a =
       bonded({{1, 0.002, {0, 0, -0.002}}, {2, 0.003, {0, 0, 0.003}}}, {Shape::box, 0.01, 0.02, 0.012});
   a.skin.clear();
@@ -185,7 +185,7 @@ TEST_CASE("bond area: two spheres by the four rules [MODEL 2 rel 1e-14]") {
 }
 
 TEST_CASE(
-    "bond area: a skin sphere gets what 11 neighbours would give and the inner end wins [MODEL 2 rel "
+    "bond area: a skin sphere gets what 11 neighbours would give and the inner end wins [(B9) rel "
     "1e-14]") {
   Assembly a =
       bonded({{1, 0.002, {0, 0, -0.002}}, {2, 0.003, {0, 0, 0.003}}}, {Shape::box, 0.01, 0.02, 0.012});

@@ -255,7 +255,7 @@ TEST_CASE("bond pass: a bond's result does not depend on its place and neighbour
     }
 }
 
-TEST_CASE("bond pass: a scene runs its nearest superset, with the same spins [DESIGN: tables]") {
+TEST_CASE("bond pass: a scene runs its nearest superset, with the same spins") {
   for_each_law([]<class Law>(const Law& law) {
     for (const Features& built : Law::feature_sets) {
       INFO(Law::name);

@@ -136,7 +136,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "contacts: pairs that overlap unbonded lie still, and are ordinary contacts once parted [MODEL 2, rel "
+    "contacts: pairs that overlap unbonded lie still, and are ordinary contacts once parted [(B31), rel "
     "1e-12]") {
   ref::Parameters p;
   p.contact_damping = false;

@@ -6,7 +6,7 @@
 
 using namespace breccia;
 
-TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shifted by [MODEL 10, 1e-14]") {
+TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shifted by [(B76), 1e-14]") {
   const Assembly a = assemble(scene::small_packing(400), scene::small_cylinder(), {}, Features{}, 1);
   const auto& x = a.particles.reference_position;
   const Gauge axial = axial_gauge(a), radial = lateral_gauge(a);
@@ -49,7 +49,7 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
 }
 
 TEST_CASE(
-    "gauges: of a standing disc and of a rectangle in a plane the widening along x alone [MODEL 10 1e-14]") {
+    "gauges: of a standing disc and of a rectangle in a plane the widening along x alone [(B78) 1e-14]") {
   for (const bool disc : {true, false}) {
     Assembly a = assemble(scene::small_packing(400), scene::small_cylinder(), {}, Features{}, 1);
     if (disc)

@@ -44,7 +44,7 @@ void shake(World& w) {
 }
 
 /// J, kinetic and stored at the instant whose forces the step finds: with the velocities half a step before
-/// and after it, which is what the scheme conserves (MODEL section 9). Makes the step.
+/// and after it, which is what the scheme conserves (B48). Makes the step.
 double advance_with_energy(World& w) {
   ParticleTable& p = w.particles;
   const Column<Vec3> place = p.position.copy(), velocity = p.velocity.copy(), spin = p.spin.copy();
