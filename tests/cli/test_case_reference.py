@@ -77,7 +77,7 @@ class CaseReference(unittest.TestCase):
                              ["material.normal_factor = 1 (law kdem)", "material.shear_factor = 1 (law kdem)",
                               'bonds.area = "polyhedron" (law kdem)'])
             self.assertEqual(unusual("ucs", solid, "time.accuracy=reference"),
-                             ["time.safety = 0.4 (accuracy reference)", 'test.platen_speed = "5 cm/s" (accuracy reference)'])
+                             ["time.safety = 0.4 (accuracy reference)", 'test.platen_speed = "0.05 m/s" (accuracy reference)'])
             self.assertEqual(unusual("biaxial", solid), ['specimen.shape = "box" (in 2-D)', "specimen.pack.porosity = 0.11 (in 2-D)"])
 
 

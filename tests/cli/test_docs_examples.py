@@ -119,7 +119,7 @@ class Examples(unittest.TestCase):
                 path.write_text(block.text)
             elif block.kind in {"sh", "python"} and block.skipped is None:
                 words = ["bash", "-euo", "pipefail", "-c", block.command()] if block.kind == "sh" else ["python3", "-c", block.text]
-                ended = subprocess.run(words, cwd=work, capture_output=True, text=True, timeout=120)
+                ended = subprocess.run(words, cwd=work, capture_output=True, text=True, timeout=600)
                 self.assertEqual(ended.returncode, 0, f"{block.place}: {shlex.join(words[-1:])}\n{ended.stdout}\n{ended.stderr}")
 
 
