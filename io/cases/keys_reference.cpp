@@ -29,7 +29,7 @@ bool has_plane(std::string_view test) {
 
 /// Two dimensions where the case does not say otherwise.
 Space usual_space(std::string_view test) {
-  return standard_of(*find_key("specimen.dimensions"), test) == "2" ? Space::plane : Space::solid;
+  return default_text_of(*find_key("specimen.dimensions"), test) == "2" ? Space::two_d : Space::three_d;
 }
 
 std::string code(std::string_view text) { return fmt::format("`{}`", text); }
@@ -46,19 +46,19 @@ std::string cell(std::string_view text) {
 
 /// The default of a key, and below it each condition under which it is another.
 std::string all_defaults(const Key& key) {
-  std::string text = key.standard.empty() ? "none" : code(key.standard);
+  std::string text = key.default_text.empty() ? "none" : code(key.default_text);
   for (const std::string_view test : tests) {
-    if (!accepts(key, test) || usual_space(test) == Space::plane) continue;
-    const std::string_view own = standard_of(key, test);
-    if (own != key.standard)
+    if (!accepts(key, test) || usual_space(test) == Space::two_d) continue;
+    const std::string_view own = default_text_of(key, test);
+    if (own != key.default_text)
       text += fmt::format("; {} {}", test, own.empty() ? "none: must be given" : code(own));
   }
   for (const ConditionalDefault& other : conditional_defaults(key, ""))
     text += fmt::format("; {} {}", other.when, code(other.value));
   for (const std::string_view test : tests) {
-    if (!accepts(key, test) || usual_space(test) == Space::solid) continue;
-    const std::string_view own = standard_of(key, test, Space::plane);
-    if (own != key.standard && own != key.standard_of_plane) text += fmt::format("; {} {}", test, code(own));
+    if (!accepts(key, test) || usual_space(test) == Space::three_d) continue;
+    const std::string_view own = default_text_of(key, test, Space::two_d);
+    if (own != key.default_text && own != key.default_2d) text += fmt::format("; {} {}", test, code(own));
   }
   return text;
 }
@@ -85,9 +85,9 @@ std::string laws_of(const Key& key) {
   return with.empty() || with.size() == count ? "all" : fmt::format("{}", fmt::join(with, ", "));
 }
 
-void add_row(std::string& text, std::string_view name, std::string_view valid, std::string_view standard,
+void add_row(std::string& text, std::string_view name, std::string_view valid, std::string_view default_text,
              std::string_view who, std::string_view meaning) {
-  text += fmt::format("| {} | {} | {} | {} | {} |\n", code(name), cell(valid), cell(standard), who,
+  text += fmt::format("| {} | {} | {} | {} | {} |\n", code(name), cell(valid), cell(default_text), who,
                       cell(meaning));
 }
 
@@ -107,10 +107,10 @@ void add_fields(std::string& text, std::span<const Field<T>> fields, std::string
       table = table_of(key);
       add_heading(text, fmt::format("{}{}{}", left, table, right), "of");
     }
-    const std::string standard = field.required         ? "none: must be given"
-                                 : key.standard.empty() ? "none"
-                                                        : code(key.standard);
-    add_row(text, word_of(key), describe_values(key), standard, field.kinds.empty() ? "all" : field.kinds,
+    const std::string default_text = field.required             ? "none: must be given"
+                                     : key.default_text.empty() ? "none"
+                                                                : code(key.default_text);
+    add_row(text, word_of(key), describe_values(key), default_text, field.kinds.empty() ? "all" : field.kinds,
             key.meaning);
   }
 }
@@ -119,16 +119,17 @@ void add_fields(std::string& text, std::span<const Field<T>> fields, std::string
 
 std::vector<ConditionalDefault> conditional_defaults(const Key& key, std::string_view test) {
   std::vector<ConditionalDefault> all;
-  if (!key.standard_of_plane.empty() && (test.empty() || has_plane(test)) &&
-      (test.empty() || standard_of(key, test, Space::plane) != standard_of(key, test, usual_space(test))))
-    all.push_back({"in 2-D", key.standard_of_plane});
+  if (!key.default_2d.empty() && (test.empty() || has_plane(test)) &&
+      (test.empty() ||
+       default_text_of(key, test, Space::two_d) != default_text_of(key, test, usual_space(test))))
+    all.push_back({"in 2-D", key.default_2d});
   for_each_law([&]<class Law>(const Law&) {
-    for (const LawStandard& standard : Law::standards)
-      if (standard.key == key.name) all.push_back({fmt::format("law {}", Law::name), standard.value});
+    for (const LawDefault& one : Law::defaults)
+      if (one.key == key.name) all.push_back({fmt::format("law {}", Law::name), one.value});
   });
   for (const std::string& word : split_words(find_key("time.accuracy")->words))
-    for (const RecipeStandard& standard : accuracy_recipe(word))
-      if (standard.key == key.name) all.push_back({fmt::format("accuracy {}", word), standard.value});
+    for (const RecipeDefault& one : accuracy_recipe(word))
+      if (one.key == key.name) all.push_back({fmt::format("accuracy {}", word), one.value});
   return all;
 }
 
@@ -139,9 +140,9 @@ std::string describe_keys(const std::string& test) {
   for (const Key& key : all_keys()) {
     if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) continue;
     if (table_of(key) != table) table = table_of(key), text += fmt::format("\n[{}]\n", table);
-    const std::string_view standard = standard_of(key, test, usual_space(test));
+    const std::string_view default_text = default_text_of(key, test, usual_space(test));
     text += fmt::format("  {:<25} {:<44} {:<12} {}", word_of(key), describe_values(key),
-                        standard.empty() ? "-" : standard, key.meaning);
+                        default_text.empty() ? "-" : default_text, key.meaning);
     std::string others;
     for (const ConditionalDefault& other : conditional_defaults(key, test))
       others += fmt::format("{}{} {}", others.empty() ? "; default " : ", ", other.when, other.value);

@@ -34,7 +34,7 @@ void write_at(std::string& text, const ConfinementLayer& at, const Layer& base) 
 std::string describe_values(const Key& key) {
   switch (key.kind) {
     case Kind::boolean:
-      return key.later == "true" ? "false" : "true, false";
+      return key.reserved == "true" ? "false" : "true, false";
     case Kind::word:
       return quote_list(split_words(key.words));
     case Kind::word_or_number:
