@@ -264,11 +264,7 @@ void run_test_program(const CommandLine& line) {
     say(progress, step_line(w, c.safety));
     if (const std::string elastic = describe_elasticity(c, ready, line.threads); !elastic.empty())
       say(progress, elastic);
-    if (!line.explain) return;
-    if (!c.unusual_defaults.empty())
-      say(progress, fmt::format("\ndefaults that are not the usual ones\n  {}",
-                                fmt::join(c.unusual_defaults, "\n  ")));
-    say(progress, "\n" + explain(w));
+    if (line.explain) say(progress, "\n" + explain(w));
     return;
   }
 

@@ -248,38 +248,25 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   }
   const Layer base = material_base(layers);
   const std::string law = law_of(base);
-  std::vector<std::string> unusual;
-  const auto note = [&](const Key& key, const Reading& reading, const std::string& when) {
-    unusual.push_back(fmt::format("{} = {} ({})", key.name, write_value(key, reading), when));
-  };
-  const auto take = [&](std::string_view name, std::string_view value, const std::string& when) {
+  const auto take = [&](std::string_view name, std::string_view value) {
     const Key& key = *find_key(name);
-    if (test == "pack" || !accepts(key, test) || layer.contains(key.name)) return;
-    const Given& given = layer[std::string(key.name)] = {read_default_text(key, value), ""};
-    note(key, given.reading, when);
+    if (test != "pack" && accepts(key, test) && !layer.contains(key.name))
+      layer[std::string(key.name)] = {read_default_text(key, value), ""};
   };
-  for (const auto& [name, given] : base)
-    if (const Key* key = find_key(name); key && given.place.empty() && !key->law.empty())
-      note(*key, given.reading, "law " + law);
-  for (const LawDefault& one : facts_of(law).defaults)
-    take(one.key, one.value, "law " + law);
+  for (const LawDefault& default_text : facts_of(law).defaults) take(default_text.key, default_text.value);
   if (const auto accuracy = layer.find("time.accuracy"); accuracy != layer.end())
-    for (const RecipeDefault& one : accuracy_recipe(accuracy->second.reading.word))
-      take(one.key, one.value, "accuracy " + accuracy->second.reading.word);
+    for (const RecipeDefault& default_text : accuracy_recipe(accuracy->second.reading.word))
+      take(default_text.key, default_text.value);
   const Key& dimensions = *find_key("specimen.dimensions");
   const auto asked = layer.find(dimensions.name);
   const bool plane =
       (asked == layer.end() ? read_default(dimensions, test) : asked->second.reading).whole == 2;
   for (const Key& key : all_keys())
-    if (takes_standard(key, layer, test)) {
-      const Space space = plane ? Space::two_d : Space::three_d;
-      const Given& given = layer[std::string(key.name)] = {read_default(key, test, space), ""};
-      if (default_text_of(key, test, space) != default_text_of(key, test)) note(key, given.reading, "in 2-D");
-    }
+    if (takes_standard(key, layer, test))
+      layer[std::string(key.name)] = {read_default(key, test, plane ? Space::two_d : Space::three_d), ""};
 
   Case c;
   c.source = file;
-  c.unusual_defaults = std::move(unusual);
   for (const Key& key : all_keys())
     if (const auto given = layer.find(key.name); given != layer.end() && key.store)
       key.store(c, given->second.reading);

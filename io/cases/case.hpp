@@ -73,8 +73,6 @@ struct Case {
   double checkpoint_every = 300;  ///< s, wall time
   int frames = 20;
   bool stress = false, cracks = true;  ///< output
-  /// Defaults that are not the usual ones, "bonds.area = \"polyhedron\" (law kdem)", for --explain.
-  std::vector<std::string> unusual_defaults;
   std::string resolved;                ///< the whole case as TOML, every default written out
 };
 

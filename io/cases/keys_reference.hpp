@@ -10,7 +10,7 @@ namespace breccia {
 
 /// A default that holds under a condition only.
 struct ConditionalDefault {
-  std::string when;  ///< "in 2-D", "law kdem", "accuracy fast"
+  std::string kind, of;  ///< "in" "2-D", "law" "kdem", "accuracy" "fast"
   std::string_view value;
 };
 
