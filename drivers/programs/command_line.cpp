@@ -16,6 +16,7 @@
 
 #include "core/base/error.hpp"
 #include "io/cases/case.hpp"
+#include "io/cases/keys_reference.hpp"
 
 namespace breccia {
 namespace {
@@ -101,7 +102,7 @@ int run_body(const std::string& program, int threads, const std::function<void()
 
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,
                 const std::function<void(const CommandLine&)>& body, const std::string& keys,
-                bool several_ranks) {
+                bool several_ranks, std::string (*reference)()) {
   const std::string program = "breccia-" + name;
   CommandLine line;
   line.program = name;
@@ -118,6 +119,10 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   app.add_flag("--force", line.force, "replace results that are there");
   app.add_flag("--quiet", line.quiet, "errors only");
   app.add_flag("--resume", line.resume, "go on from the newest checkpoint in the folder of results");
+  // for scripts/case-reference: left out of --help, which has the same keys
+  app.add_flag_callback("--keys-markdown", [reference] {
+       throw CLI::CallForVersion(reference ? reference() : case_reference(), 0);  // printed, then exit code 0
+     })->group("");
   app.footer(keys.empty() ? describe_keys(name) : keys);
   if (const auto code = read_command_line(app, argc, argv)) return *code;
   if (line.out.empty()) line.out = std::filesystem::path("out") / line.case_file.stem();

@@ -498,6 +498,7 @@ std::vector<Key> keys_of_laws() {
       key.dimension = dimension_of(parameter.unit);
       key.range = parameter.above ? more_than(parameter.low) : at_least(parameter.low);
       key.law = law.name;
+      key.default_text = parameter.default_text;
       key.meaning = names.emplace_back(fmt::format("law {}: {}", law.name, parameter.meaning));
       own.push_back(key);
     }
