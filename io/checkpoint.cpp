@@ -6,6 +6,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "core/base/hold.hpp"
 #include "core/error.hpp"
 #include "core/resume.hpp"
 #include "core/row_order.hpp"
@@ -170,6 +171,7 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
       if (!std::ofstream(aside, std::ios::trunc)) fail_to_write(aside, errno);
       claim_space(aside, bytes_of_numbers(head, whole, state, result));
       begin_file(aside, head, whole, state, result);
+      hold_at(HoldPoint::checkpoint_begun);
       claim_space(aside, bytes_of_tables(whole));
     }
     wait_for_all(ranks);
@@ -180,8 +182,10 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
     }
     wait_for_all(ranks);
     if (!ranks.is_root()) return;
+    hold_at(HoldPoint::checkpoint_filled);
     seal(aside);
     flush_to_disk(aside);
+    hold_at(HoldPoint::checkpoint_sealed);
   } catch (const std::exception& error) {
     std::error_code ignored;
     fs::remove(aside, ignored);
@@ -191,7 +195,9 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
   std::error_code error;
   if (fs::exists(file, error)) fs::rename(file, before(folder), error);
   if (error) fail_to_write(before(folder), error.value());
+  hold_at(HoldPoint::checkpoint_between);
   move_into_place(aside, file);
+  hold_at(HoldPoint::checkpoint);
 }
 
 std::optional<FoundCheckpoint> find_checkpoint(const fs::path& folder,

@@ -11,9 +11,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <thread>
 
+#include "core/base/hold.hpp"
 #include "core/error.hpp"
 #include "io/case.hpp"
 
@@ -83,6 +85,7 @@ int run_body(const std::string& program, int threads, const std::function<void()
                : 2;
   ranks = join_job();
   try {
+    set_hold(std::getenv("BRECCIA_HOLD"), interrupted);
     body();
   } catch (const BadInput& error) {
     return end_rank(ranks, program, error.what(), 2);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/hold.hpp"
 #include "core/elastic_network.hpp"
 #include "core/error.hpp"
 #include "core/law_of_material.hpp"
@@ -17,6 +18,7 @@ Specimen make_specimen(const Case& c, Progress& progress) {
   if (s.pack) {
     say(progress,
         fmt::format("packing {} {}", s.pack->spheres, s.space == Space::plane ? "discs" : "spheres"));
+    hold_at(HoldPoint::packing);
     return pack_spheres(s.body, *s.pack);
   }
   Specimen specimen = place_specimen(read_specimen(*s.file), s.axis, s.centre, s.space);

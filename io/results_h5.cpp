@@ -5,6 +5,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/base/hold.hpp"
 #include "core/error.hpp"
 #include "io/disk_space.hpp"
 #include "io/file_trouble.hpp"
@@ -60,14 +61,21 @@ void append(const fs::path& path, const Ranks& ranks, const std::string& parent,
   h5::prepare();
   bytes = sum_of_all(ranks, bytes);
   if (ranks.is_root()) claim_space(path, bytes + bytes_of_group);
+  const auto hold = [&](HoldPoint point) {
+    if (ranks.is_root()) hold_at(point);
+  };
+  hold(HoldPoint::results_claimed);
   wait_for_all(ranks);
   try {
     h5::Handle file = h5::open_file(path.string(), ranks);
     {
       const h5::Handle group = h5::create_unlinked_group(file, links);
       write(static_cast<hid_t>(group));
+      hold(HoldPoint::results_filled);
       h5::flush(file);
+      hold(HoldPoint::results_flushed);
       h5::link_as(group, file, parent, name);
+      hold(HoldPoint::results_linked);
     }  // a file closes only after its groups
     file.close("close");
   } catch (const h5::Failure& failure) {

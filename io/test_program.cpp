@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "core/base/hold.hpp"
 #include "core/error.hpp"
 #include "core/stress.hpp"
 #include "io/case_change.hpp"
@@ -300,6 +301,7 @@ void run_test_program(const CommandLine& line) {
     fit_peaks(series);
     write_summary(line.out / "summary.json", series);
     say(progress, result_line(c, k, line.program, series.runs.back()));
+    hold_at(HoldPoint::run);
   }
   if (!ranks.is_root()) return;
   if (stopped != Stopped::interrupted) remove_checkpoints(line.out);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "core/base/hold.hpp"
 #include "core/error.hpp"
 #include "io/command_line.hpp"
 #include "io/progress.hpp"
@@ -124,6 +125,7 @@ private:
     if (!outcome) return;
     journal_.add(key_of(trial), *outcome);
     collect();
+    hold_at(HoldPoint::measurement);
     say(progress_, fmt::format("{} of {}, {}", results_.runs.size(), trials_.size(),
                                describe({trial, *outcome}, results_.analysis)));
   }
