@@ -41,7 +41,7 @@ int end(const std::string& program, std::string_view what, int code) {
 int end_rank(const Ranks& ranks, const std::string& program, std::string_view what, int code) {
   if (ranks.alone()) return end(program, what, code);
   if (!ranks.is_root()) {
-    std::this_thread::sleep_for(std::chrono::seconds(2));
+    std::this_thread::sleep_for(std::chrono::seconds(20));  // the root may be slow
     end(fmt::format("{}, rank {}", program, ranks.rank), what, code);
   } else {
     end(program, what, code);
