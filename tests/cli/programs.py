@@ -1,5 +1,9 @@
 """What the tests of the programs share: where they are, how they are run and made to wait, a small specimen, and full
 and read-only disks."""
+import contextlib
+import importlib.machinery
+import importlib.util
+import io
 import json
 import os
 import shutil
@@ -9,6 +13,7 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import h5py
 
@@ -47,8 +52,25 @@ def run(program, *arguments, **options):
     return subprocess.run(command(program, *arguments), **options)
 
 
+def load_plot():
+    """scripts/plot as a module."""
+    loader = importlib.machinery.SourceFileLoader("plot", str(SOURCE / "scripts" / "plot"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("plot", loader))
+    loader.exec_module(module)
+    return module
+
+
 def plot(*arguments):
-    return subprocess.run([SOURCE / "scripts" / "plot", *arguments], capture_output=True, text=True, timeout=HANG)
+    """scripts/plot with these arguments, in this process: to start Python and to load matplotlib anew takes longer than to
+    draw. As a user calls it: test_plot.py, test_series."""
+    out, errors = io.StringIO(), io.StringIO()
+    words = ["plot", *map(str, arguments)]
+    with mock.patch.object(sys, "argv", words), contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
+        try:
+            code = load_plot().main()
+        except SystemExit as end:
+            code = end.code
+    return subprocess.CompletedProcess(words, code, out.getvalue(), errors.getvalue())
 
 
 def wait_until(so, what):
