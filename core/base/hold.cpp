@@ -12,7 +12,7 @@
 #include <string_view>
 #include <thread>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace breccia {
 namespace {

@@ -1,12 +1,13 @@
-// Reading a specimen, and checking it: the time must grow as the number of spheres does, not as its square.
+// Reading a specimen, and checking it: the time must grow as the number of spheres does, not as its
+// square. Run from a quiet machine:
 //   build/bin/bench_specimen
-// The last two lines of each give the growth that fits best: N, or N lg N where neighbours are sorted.
+// The last two lines of each give the growth that fits best: N, or N lg N where something is sorted.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
 #include <random>
 
-#include "io/read_specimen.hpp"
+#include "io/specimens/read_specimen.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
-"""What the tests of the programs share: where they are, how they are run and made to wait, a small specimen, and full
-and read-only disks."""
+"""What the tests of the programs share: where they are, how they are run and made to wait, a small
+specimen, and full and read-only disks."""
 import contextlib
 import importlib.machinery
 import importlib.util
@@ -61,8 +61,8 @@ def load_plot():
 
 
 def plot(*arguments):
-    """scripts/plot with these arguments, in this process: to start Python and to load matplotlib anew takes longer than to
-    draw. As a user calls it: test_plot.py, test_series."""
+    """scripts/plot with these arguments, in this process: to start Python and load matplotlib anew
+    takes longer than to draw. As a user calls it: test_plot.py, test_series."""
     out, errors = io.StringIO(), io.StringIO()
     words = ["plot", *map(str, arguments)]
     with mock.patch.object(sys, "argv", words), contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
@@ -88,8 +88,8 @@ def finish(process):
 
 
 def main():
-    """unittest.main, but for two things that are counted: what is skipped is said, and a script that skipped all that it
-    has says so by its exit code."""
+    """unittest.main, that says what is skipped and why; a script that skipped all that it has says so by
+    its exit code too."""
     program = unittest.main(verbosity=2, exit=False)
     skipped = {getattr(test, "test_case", test).id() for test, _ in program.result.skipped}
     if not program.result.wasSuccessful():
@@ -135,8 +135,8 @@ class ProgramTest(unittest.TestCase):
         return process
 
     def start_and_hold(self, point, *words, env=()):
-        """Starts a program and returns when it waits at a point of its way, "row:30" (core/base/hold.hpp). It goes on when
-        it gets a signal or after let_go()."""
+        """Starts a program and returns when it waits at a point of its way, "row:30": core/base/hold.hpp.
+        It goes on when it gets a signal, or after let_go()."""
         self.held = self.work / "held"
         self.let_go()
         process = self.start(*words, env={"BRECCIA_HOLD": f"{point}={self.held}"} | dict(env))
