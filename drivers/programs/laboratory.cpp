@@ -138,15 +138,15 @@ void begin_frames(const RunOfSeries& run, const World& w, const LoadTest& load, 
   if (!any(run.ranks, fresh)) return;
   const std::pair<std::string, double> attributes[] = {
       {"confinement_Pa", load.confinement}, {"alpha", w.alpha}, {"time_step_s", w.dt}};
-  begin_run(results, number, attributes, w.share, w.particles, w.bonds);
+  begin_run(results, number, attributes, w.partition, w.particles, w.bonds);
 }
 
 /// One more frame in results.h5, by all ranks, and for ParaView, by the root.
 void write_frame(const RunOfSeries& run, World& w, std::size_t frame, const CurveRow& row) {
   const int number = static_cast<int>(run.k), at = static_cast<int>(frame);
-  World& whole = bring_together(w);
+  World& whole = gather_to_root(w);
   if (run.c.stress) fill_stress_columns(w);
-  append_frame(run.folder / "results.h5", number, at, {w.time, w.step, row.axial_strain}, w.share,
+  append_frame(run.folder / "results.h5", number, at, {w.time, w.step, row.axial_strain}, w.partition,
                w.particles, w.bonds);
   if (!run.ranks.is_root()) return;
   if (run.c.stress && !run.ranks.alone()) fill_stress_columns(whole);
@@ -175,7 +175,7 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
     crack_file.emplace(run.folder / fmt::format("cracks-{}.csv", run.k));
     crack_file->add(std::span(w.cracks.cracks).first(state.cracks_told));
   }
-  if (!run.ranks.alone()) w = cut(std::move(w), run.ranks);
+  if (!run.ranks.alone()) w = distribute(std::move(w), run.ranks);
   begin_frames(run, w, load, state.stage != Stage::not_begun);
 
   LoadHooks hooks;
@@ -197,11 +197,11 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
   } catch (...) {
     try {
       if (run.ranks.is_root()) write_curve(curve, result.record.rows);
-    } catch (const FileTrouble&) {  // the first trouble is the one to report
+    } catch (const WriteError&) {  // the first trouble is the one to report
     }
     throw;
   }
-  const World& whole = bring_together(w);
+  const World& whole = gather_to_root(w);
   if (!run.ranks.is_root()) return {};
   write_curve(curve, result.record.rows);
   return summarise(run.test, whole, a, load, result);
@@ -269,11 +269,11 @@ void run_test_program(const CommandLine& line) {
     return;
   }
 
-  wait_for_all(ranks);  // until nobody reads what was there any more
+  barrier(ranks);  // until nobody reads what was there any more
   begin_results();
   if (!found && ranks.is_root()) {
     claim_run_folder(line.out, line.force || line.resume);
-    write_aside(line.out / "case.toml", c.resolved);
+    atomic_write(line.out / "case.toml", c.resolved);
     if (c.frames > 0) create_results(line.out / "results.h5", c.resolved);
   }
   SeriesSummary series;

@@ -51,7 +51,7 @@ void run_pack_program(const CommandLine& line) {
   say(progress, report(specimen, c.specimen, seconds, line.threads));
   if (line.dry_run || line.explain) return;
   claim_run_folder(line.out, line.force);
-  write_aside(line.out / "case.toml", c.resolved);
+  atomic_write(line.out / "case.toml", c.resolved);
   write_specimen_csv(line.out / "specimen.csv", specimen);
   say(progress, fmt::format("written: {}", (line.out / "specimen.csv").string()));
 }
