@@ -60,7 +60,7 @@ struct Run {
   Clock::time_point told{};  ///< when the program was last told
 
   bool interrupted() const { return hooks.interrupted && hooks.interrupted(); }
-  bool is_root() const { return w.share.ranks.is_root(); }
+  bool is_root() const { return w.partition.ranks.is_root(); }
 };
 
 void enter(Run& run, Stage stage) {
