@@ -11,10 +11,12 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "io/cases/case.hpp"
 #include "io/cases/keys_reference.hpp"
 
@@ -40,7 +42,7 @@ int end(const std::string& program, std::string_view what, int code) {
 int end_rank(const Ranks& ranks, const std::string& program, std::string_view what, int code) {
   if (ranks.alone()) return end(program, what, code);
   if (!ranks.is_root()) {
-    std::this_thread::sleep_for(std::chrono::seconds(2));
+    std::this_thread::sleep_for(std::chrono::seconds(20));  // the root may be slow
     end(fmt::format("{}, rank {}", program, ranks.rank), what, code);
   } else {
     end(program, what, code);
@@ -86,6 +88,7 @@ int run_body(const std::string& program, int threads, const std::function<void()
                : 2;
   ranks = mpi_init();
   try {
+    set_hold(std::getenv("BRECCIA_HOLD"), interrupted);
     body();
   } catch (const BadInput& error) {
     return end_rank(ranks, program, error.what(), 2);

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "core/distributed/distribute.hpp"
 #include "core/distributed/gather.hpp"
 #include "core/loading/summarise.hpp"
@@ -303,6 +304,7 @@ void run_test_program(const CommandLine& line) {
     fit_peaks(series);
     write_summary(line.out / "summary.json", series);
     say(progress, result_line(c, k, line.program, series.runs.back()));
+    hold_at(HoldPoint::run);
   }
   if (!ranks.is_root()) return;
   if (stopped != Stopped::interrupted) remove_checkpoints(line.out);

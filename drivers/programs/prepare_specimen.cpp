@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "core/bonding/law_of_material.hpp"
 #include "core/bonding/section_area.hpp"
 #include "core/elastic/elastic_network.hpp"
@@ -17,6 +18,7 @@ Specimen make_specimen(const Case& c, Progress& progress) {
   if (s.pack) {
     say(progress,
         fmt::format("packing {} {}", s.pack->spheres, s.space == Space::two_d ? "discs" : "spheres"));
+    hold_at(HoldPoint::packing);
     return pack_spheres(s.body, *s.pack);
   }
   Specimen specimen = place_specimen(read_specimen(*s.file), s.axis, s.centre, s.space);

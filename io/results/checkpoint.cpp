@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "core/distributed/gather.hpp"
 #include "core/loading/saved_state.hpp"
 #include "core/stepping/resume.hpp"
@@ -171,6 +172,7 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
       if (!std::ofstream(aside, std::ios::trunc)) fail_to_write(aside, errno);
       preallocate(aside, bytes_of_numbers(head, whole, state, result));
       begin_file(aside, head, whole, state, result);
+      hold_at(HoldPoint::checkpoint_begun);
       preallocate(aside, bytes_of_tables(whole));
     }
     barrier(ranks);
@@ -181,8 +183,10 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
     }
     barrier(ranks);
     if (!ranks.is_root()) return;
+    hold_at(HoldPoint::checkpoint_filled);
     append_checksum(aside);
     flush_to_disk(aside);
+    hold_at(HoldPoint::checkpoint_sealed);
   } catch (const std::exception& error) {
     std::error_code ignored;
     fs::remove(aside, ignored);
@@ -192,7 +196,9 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
   std::error_code error;
   if (fs::exists(file, error)) fs::rename(file, before(folder), error);
   if (error) fail_to_write(before(folder), error.value());
+  hold_at(HoldPoint::checkpoint_between);
   move_into_place(aside, file);
+  hold_at(HoldPoint::checkpoint);
 }
 
 std::optional<FoundCheckpoint> find_checkpoint(const fs::path& folder,

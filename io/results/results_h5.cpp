@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "io/files/atomic_write.hpp"
 #include "io/files/disk_space.hpp"
 #include "io/files/write_error.hpp"
@@ -62,14 +63,21 @@ void append(const fs::path& path, const Ranks& ranks, const std::string& parent,
   h5::prepare();
   bytes = all_reduce_sum(ranks, bytes);
   if (ranks.is_root()) preallocate(path, bytes + bytes_of_group);
+  const auto hold = [&](HoldPoint point) {
+    if (ranks.is_root()) hold_at(point);
+  };
+  hold(HoldPoint::results_claimed);
   barrier(ranks);
   try {
     h5::Handle file = h5::open_file(path.string(), ranks);
     {
       const h5::Handle group = h5::create_unlinked_group(file, links);
       write(static_cast<hid_t>(group));
+      hold(HoldPoint::results_filled);
       h5::flush(file);
+      hold(HoldPoint::results_flushed);
       h5::link_as(group, file, parent, name);
+      hold(HoldPoint::results_linked);
     }  // a file closes only after its groups
     file.close("close");
   } catch (const h5::Failure& failure) {

@@ -94,7 +94,7 @@ TEST_CASE("A bond that is pulled apart costs its fracture energy, and the platen
   for (const int steps : {100, 1000}) {
     World pulled = w;
     pull(pulled, 2.0 * u_l, steps);
-    const EnergyBalance e = balance(pulled);
+    const EnergyBalance e = energy_balance(pulled);
     CHECK(e.damage == doctest::Approx(energy).epsilon(1e-12));
     CHECK(e.stored == 0.0);
     CHECK(e.work == doctest::Approx(energy).epsilon(4.0 / steps / steps));
@@ -181,7 +181,7 @@ TEST_CASE("Bodies that break up and rub balance, in every channel, with the squa
       EnergyBalance e;
       while (run.time < 8e-3) {
         advance(run);
-        e = balance(run);
+        e = energy_balance(run);
         record_balance(run.ledger, e);
       }
       CHECK(count_broken(run).tension + count_broken(run).shear > 30);

@@ -42,7 +42,7 @@ TEST_CASE(
   const std::filesystem::path file =
       std::filesystem::path(BRECCIA_SOURCE_DIR "/../shared/reference") / "reference_graph_benchmark24.dat";
   if (!std::filesystem::exists(file)) {
-    MESSAGE("skipped: reference_graph_benchmark24.dat is not here");
+    MESSAGE("skipped 'reference_graph_benchmark24.dat is not here'");
     return;
   }
   std::vector<double> times, theirs;

@@ -16,7 +16,7 @@ TEST_CASE(
   const std::filesystem::path file =
       std::filesystem::path(BRECCIA_SOURCE_DIR "/../shared/reference") / "reference_graph_benchmark22.dat";
   if (!std::filesystem::exists(file)) {
-    MESSAGE("skipped: reference_graph_benchmark22.dat is not here");
+    MESSAGE("skipped 'reference_graph_benchmark22.dat is not here'");
     return;
   }
   reference::Parameters p;

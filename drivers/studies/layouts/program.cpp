@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "core/base/hold.hpp"
 #include "drivers/programs/command_line.hpp"
 #include "drivers/studies/layouts/options.hpp"
 #include "drivers/studies/layouts/results.hpp"
@@ -46,6 +47,7 @@ bool run_study(const LayoutsOptions& options) {
                        study_layouts(scene, threads, options.timing)});
       write_layouts_csv(options.out / "layouts.csv", results);
       write_layouts_json(options.out / "layouts.json", results);
+      hold_at(HoldPoint::measurement);
       say(progress, format_layouts_group(group, results.operations));
       for (const LayoutResult& r : group.results) {
         if (r.difference <= allowed_difference) continue;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/hold.hpp"
 #include "drivers/programs/command_line.hpp"
 #include "drivers/studies/scaling/results.hpp"
 #include "drivers/studies/study_options.hpp"
@@ -53,6 +54,7 @@ void run_study(const ScalingOptions& options) {
     if (!ranks.is_root()) continue;
     write_scaling_csv(options.out / "scaling.csv", results);
     write_scaling_json(options.out / "scaling.json", results);
+    hold_at(HoldPoint::measurement);
     say(progress, describe(results.runs.back(), results.runs));
   }
   if (!ranks.is_root()) return;

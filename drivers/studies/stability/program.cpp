@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <mutex>
 
+#include "core/base/hold.hpp"
 #include "core/base/threads.hpp"
 #include "drivers/programs/command_line.hpp"
 #include "drivers/studies/stability/options.hpp"
@@ -52,6 +53,7 @@ bool run_study(const StabilityOptions& options) {
         results.parts[k] = std::move(runs);
         write_stability_csv(options.out / "stability.csv", results);
         write_stability_json(options.out / "stability.json", results);
+        hold_at(HoldPoint::measurement);
       },
       tbb::simple_partitioner{});
   say(progress, fmt::format("\n{}", format_stability_table(results)));

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "drivers/programs/command_line.hpp"
 #include "drivers/studies/workprecision/journal.hpp"
 #include "drivers/studies/workprecision/options.hpp"
@@ -124,6 +125,7 @@ private:
     if (!outcome) return;
     journal_.add(key_of(trial), *outcome);
     collect();
+    hold_at(HoldPoint::measurement);
     say(progress_, fmt::format("{} of {}, {}", results_.runs.size(), trials_.size(),
                                describe({trial, *outcome}, results_.analysis)));
   }
