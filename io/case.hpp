@@ -56,7 +56,8 @@ struct FeatureCase {  ///< what the scene may leave out
 };
 
 struct Case {
-  std::filesystem::path source;  ///< the case file
+  std::filesystem::path source;                ///< the case file
+  std::vector<std::filesystem::path> inputs;  ///< all that was read: the case, its preset, its specimen
   SpecimenCase specimen;
   std::string preset;               ///< name of the material preset; empty: none
   std::vector<Material> materials;  ///< one per confinement, in the order of test.confinement

@@ -11,11 +11,14 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <new>
+#include <sstream>
 #include <thread>
 
 #include "core/error.hpp"
 #include "io/case.hpp"
+#include "io/ending.hpp"
+#include "io/files/standard_streams.hpp"
+#include "io/text/message_line.hpp"
 
 namespace breccia {
 namespace {
@@ -28,10 +31,18 @@ void ask_to_stop(int) {
 }
 
 int end(const std::string& program, std::string_view what, int code) {
-  std::string line(what);
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  fmt::print(stderr, "{}: {}\n", program, line);
+  // fputs: nobody is left to be told when this line cannot be written
+  std::fputs(fmt::format("{}: {}\n", program, message_line(what)).c_str(), stderr);
   return code;
+}
+
+void set_signals() {
+  // both would end the program on the spot; ignored, the write fails, and its caller says so
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  struct sigaction action {};
+  action.sa_handler = ask_to_stop;
+  // SIGXCPU: a limit of time (ulimit -t) is near
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) sigaction(signal, &action, nullptr);
 }
 
 /// Of several ranks the root speaks. Another one has something to say only when it alone is in trouble: it waits for
@@ -61,21 +72,29 @@ int available_cores() {
 }
 
 std::optional<int> read_command_line(CLI::App& app, int argc, char** argv) {
+  open_standard_streams();
+  end_in_order(app.get_name());
+  set_signals();
+  const bool speaks = ranks_of_launcher().is_root();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return end(app.get_name(), fmt::format("{} (see {} --help)", error.what(), app.get_name()), 2);
+    std::ostringstream out, err;
+    const int code = app.exit(error, out, err) == 0 ? 0 : 2;
+    if (!speaks) return code;
+    if (code != 0)
+      return end(app.get_name(), fmt::format("{} (see {} --help)", error.what(), app.get_name()), code);
+    try {
+      print_out(out.str());  // --help, --version
+    } catch (const FileTrouble& trouble) {
+      return end(app.get_name(), trouble.what(), 4);
+    }
+    return 0;
   }
   return std::nullopt;
 }
 
 int run_body(const std::string& program, int threads, const std::function<void()>& body, bool several_ranks) {
-  struct sigaction action {};
-  action.sa_handler = ask_to_stop;
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
   Ranks ranks = ranks_of_launcher();
   if (!ranks.alone() && !several_ranks)
     return ranks.is_root()
@@ -83,15 +102,13 @@ int run_body(const std::string& program, int threads, const std::function<void()
                : 2;
   ranks = join_job();
   try {
+    try_threads(threads);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
     body();
-  } catch (const BadInput& error) {
-    return end_rank(ranks, program, error.what(), 2);
-  } catch (const SimulationBroke& error) {
-    return end_rank(ranks, program, error.what(), 3);
-  } catch (const FileTrouble& error) {
-    return end_rank(ranks, program, error.what(), 4);
-  } catch (const std::bad_alloc&) {
-    return end_rank(ranks, program, "not enough memory: use fewer spheres", 3);
+  } catch (...) {
+    const Ending ending = ending_of(std::current_exception());
+    return end_rank(ranks, program, ending.what, ending.code);
   }
   leave_job();
   return interrupted() ? 130 : 0;

@@ -8,6 +8,7 @@
 #include "io/case_write.hpp"
 #include "io/impact_keys.hpp"
 #include "io/nearest.hpp"
+#include "io/text/toml_depth.hpp"
 #include "io/text_file.hpp"
 
 namespace breccia {
@@ -49,6 +50,7 @@ void apply_set(TomlNode& root, const std::string& text) {
   const std::string name(trim(std::string_view(text).substr(0, equals)));
   if (equals == std::string::npos || name.find('.') == std::string::npos)
     fail<BadInput>("--set: {}: write --set table.key=value", quote(text));
+  if (line_nested_too_deep(name)) fail<BadInput>("--set: {}: nested more than {} deep", quote(name), deepest_toml);
   TomlNode* node = &root;
   std::size_t from = 0;
   for (std::size_t dot; (dot = name.find('.', from)) != std::string::npos; from = dot + 1)
