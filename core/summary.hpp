@@ -79,9 +79,10 @@ struct SeriesSummary {
   std::string version;  ///< of breccia
   int threads = 1;
   int ranks = 1;
-  std::vector<std::pair<std::string, std::string>> inputs;  ///< SHA-256 of all files that were read, by name
   std::vector<RunSummary> runs;             ///< run K is runs[K], curve-K.csv, results.h5:/run-K
   std::optional<MohrCoulomb> mohr_coulomb;  ///< only where there were enough peaks
+  /// SHA-256 of all files that were read, by name
+  std::vector<std::pair<std::string, std::string>> inputs{};
 };
 
 }  // namespace breccia

@@ -223,7 +223,8 @@ std::filesystem::path find_specimen(const std::filesystem::path& case_file, cons
 }
 
 /// The resolved case names the file by its whole path, and by its content.
-void resolve_specimen(const std::filesystem::path& file, Layer& layer) {
+/// @returns the digest of what it holds
+std::string resolve_specimen(const std::filesystem::path& file, Layer& layer) {
   Given& given = layer.find("specimen.file")->second;
   const std::string whole = std::filesystem::absolute(file).lexically_normal().string();
   if (!is_utf8(whole))
@@ -235,7 +236,7 @@ void resolve_specimen(const std::filesystem::path& file, Layer& layer) {
   if (!digest.reading.word.empty() && digest.reading.word != now)
     refuse(digest.place, "specimen.sha256",
            fmt::format("{} has changed since; put it back as it was, or leave this line out", file.string()));
-  digest.reading.word = now;
+  return digest.reading.word = now;
 }
 
 }  // namespace
@@ -302,7 +303,7 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   if (test != "pack") checks.loading();
   if (c.specimen.file) {
     c.specimen.file = find_specimen(file, layer.find("specimen.file")->second);
-    resolve_specimen(*c.specimen.file, layer);
+    c.specimen.sha256 = resolve_specimen(*c.specimen.file, layer);
     c.inputs.push_back(*c.specimen.file);
   }
   if (test == "pack") {

@@ -15,6 +15,7 @@ namespace breccia {
 
 struct SpecimenCase {
   std::optional<std::filesystem::path> file;  ///< the case's folder in front
+  std::string sha256;                         ///< of the file, 64 hex digits
   std::optional<PackRequest> pack;
   Space space = Space::solid;
   Body body;                   ///< a disc in the plane: its height is its diameter

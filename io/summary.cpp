@@ -177,7 +177,8 @@ FinishedRuns finished_runs(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, ignored)) return {};
   try {
     FinishedRuns finished;
-    for (const Json& run : Json::parse(read_bytes(file)).at("runs")) {
+    const Json all = Json::parse(read_bytes(file));
+    for (const Json& run : all.at("runs")) {
       if (run.at("stopped_by") == "interrupted") continue;
       ++finished.count;
       if (run.contains("files")) take(run.at("files"), finished.files);
