@@ -8,7 +8,7 @@
 #include <new>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "io/text/input_file.hpp"
 
 namespace breccia {

@@ -9,8 +9,8 @@
 #include <cerrno>
 #include <utility>
 
-#include "core/error.hpp"
-#include "io/file_trouble.hpp"
+#include "core/base/error.hpp"
+#include "io/files/write_error.hpp"
 
 namespace breccia {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <system_error>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace breccia {
 

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <map>
 
-#include "core/law_of_material.hpp"
+#include "core/bonding/law_of_material.hpp"
 #include "tests/scene.hpp"
 
 namespace {

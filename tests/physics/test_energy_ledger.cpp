@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "core/load_test.hpp"
+#include "core/loading/protocol.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

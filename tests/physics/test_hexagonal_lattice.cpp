@@ -3,7 +3,7 @@
 // and 5.6.
 #include <doctest/doctest.h>
 
-#include "core/stress.hpp"
+#include "core/world/stress.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

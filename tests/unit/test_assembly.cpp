@@ -2,8 +2,8 @@
 // the bodies that the loading holds, a disc that is stood up.
 #include <doctest/doctest.h>
 
-#include "core/bond_area.hpp"
-#include "io/read_specimen.hpp"
+#include "core/bonding/bond_area.hpp"
+#include "io/specimens/read_specimen.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

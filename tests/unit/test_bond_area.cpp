@@ -8,14 +8,14 @@
 #include <numbers>
 #include <string>
 
-#include "core/body_walls.hpp"
-#include "core/bond_area.hpp"
-#include "core/error.hpp"
-#include "core/mantle_area.hpp"
-#include "core/random.hpp"
-#include "core/section_area.hpp"
-#include "core/voronoi_cells.hpp"
-#include "io/read_specimen.hpp"
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
+#include "core/bonding/bond_area.hpp"
+#include "core/bonding/mantle_area.hpp"
+#include "core/bonding/section_area.hpp"
+#include "core/geometry/body_walls.hpp"
+#include "core/geometry/voronoi_cells.hpp"
+#include "io/specimens/read_specimen.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -160,7 +160,7 @@ Shares shares(const Assembly& a, double section, Space space = Space::solid) {
 
 }  // namespace
 
-TEST_CASE("bond area: two spheres by the four rules [MODEL 2 rel 1e-14]") {
+TEST_CASE("bond area: two spheres by the four rules [(P21) (S4.32) rel 1e-14]") {
   Assembly a =
       bonded({{1, 0.002, {0, 0, -0.002}}, {2, 0.003, {0, 0, 0.003}}}, {Shape::box, 0.01, 0.02, 0.012});
   a.skin.clear();
@@ -185,7 +185,7 @@ TEST_CASE("bond area: two spheres by the four rules [MODEL 2 rel 1e-14]") {
 }
 
 TEST_CASE(
-    "bond area: a skin sphere gets what 11 neighbours would give and the inner end wins [MODEL 2 rel "
+    "bond area: a skin sphere gets what 11 neighbours would give and the inner end wins [(B9) rel "
     "1e-14]") {
   Assembly a =
       bonded({{1, 0.002, {0, 0, -0.002}}, {2, 0.003, {0, 0, 0.003}}}, {Shape::box, 0.01, 0.02, 0.012});

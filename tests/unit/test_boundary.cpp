@@ -1,7 +1,7 @@
 // What acts on a specimen from outside: pressure on the mantle, platens, their servo.
 #include <doctest/doctest.h>
 
-#include "kernels/integrate.hpp"
+#include "kernels/loops/integrate.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -15,7 +15,7 @@ Assembly packed(std::size_t spheres) {
 }  // namespace
 
 TEST_CASE(
-    "boundary: the weights of the skin add up to the nominal mantle, in the ratio of r^2 [MODEL 10, rel "
+    "boundary: the weights of the skin add up to the nominal mantle, in the ratio of r^2 [(B71), rel "
     "1e-13]") {
   const Assembly a = packed(400);
   const Confinement c = make_confinement(a, SkinWeights::radius, false);
@@ -36,7 +36,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "boundary: net force and all three moments of the pressure vanish [MODEL 10, 1e-13 of the sum of "
+    "boundary: net force and all three moments of the pressure vanish [(B72), 1e-13 of the sum of "
     "forces]") {
   Assembly a = packed(400);
   Confinement c = make_confinement(a, SkinWeights::radius, false);
@@ -67,7 +67,7 @@ TEST_CASE(
 
 TEST_CASE(
     "boundary: a servo on a spring comes to rest where the reaction is the pressure, without overshoot "
-    "[MODEL 10, 1e-9]") {
+    "[(B66), 1e-9]") {
   const Assembly a = packed(300);
   Assembly heavy = a;
   for (std::size_t k = 0; k < a.particles.size; ++k)
@@ -135,7 +135,7 @@ TEST_CASE("boundary: without a servo platens keep their speed and read reactions
 
 TEST_CASE(
     "boundary: rough platens fix lateral motion, smooth ones leave it free, spins are free, global damping "
-    "[MODEL 7, 10]") {
+    "[(B64)]") {
   for (const bool rough : {true, false}) {
     std::vector<Vec3> x(1), v{{3, 0, 7}}, w{{0, 0, 2}}, f{{0, 5, 100}}, t{{0, 0, 4}};
     const std::vector<double> m{2}, r{0.5};

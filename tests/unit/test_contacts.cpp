@@ -136,7 +136,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "contacts: pairs that overlap unbonded lie still, and are ordinary contacts once parted [MODEL 2, rel "
+    "contacts: pairs that overlap unbonded lie still, and are ordinary contacts once parted [(B31), rel "
     "1e-12]") {
   ref::Parameters p;
   p.contact_damping = false;
@@ -185,8 +185,8 @@ TEST_CASE("contacts: a new list keeps the friction and free length of pairs in c
                                                             w.contacts.shear_force[k]};
   }
   w.particles.position[3] = {0.0305, 0, 0};  // a new neighbour, so that rows shift
-  renew_contacts(w.search, w.contacts, w.particles,
-                 {w.material.young_modulus, w.alpha}, w.options.features, false, 1);
+  renew_contacts(w.search, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, w.options.features,
+                 false, 1);
   CHECK(w.contacts.size > before.size());
   std::size_t kept = 0;
   for (std::size_t k = 0; k < w.contacts.size; ++k) {

@@ -1,12 +1,12 @@
 // Gauges on displacement fields that are known.
 #include <doctest/doctest.h>
 
-#include "core/gauges.hpp"
+#include "core/elastic/gauges.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
 
-TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shifted by [MODEL 10, 1e-14]") {
+TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shifted by [(B76), 1e-14]") {
   const Assembly a = assemble(scene::small_packing(400), scene::small_cylinder(), {}, Features{}, 1);
   const auto& x = a.particles.reference_position;
   const Gauge axial = axial_gauge(a), radial = lateral_gauge(a);
@@ -15,7 +15,8 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
   const auto strains = [&](auto displacement) {
     std::vector<Vec3> moved(x.size());
     for (std::size_t k = 0; k < x.size(); ++k) moved[k] = x[k] + displacement(x[k]);
-    return std::pair{read_gauge(axial, moved, x, share_alone(x.size())), read_gauge(radial, moved, x, share_alone(x.size()))};
+    return std::pair{read_gauge(axial, moved, x, share_alone(x.size())),
+                     read_gauge(radial, moved, x, share_alone(x.size()))};
   };
   // shortened by 2e-3 along z, widened by 5e-4 across; positive in compression
   const auto [e_z, e_r] = strains([](const Vec3& p) {
@@ -48,7 +49,7 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
 }
 
 TEST_CASE(
-    "gauges: of a standing disc and of a rectangle in a plane the widening along x alone [MODEL 10 1e-14]") {
+    "gauges: of a standing disc and of a rectangle in a plane the widening along x alone [(B78) 1e-14]") {
   for (const bool disc : {true, false}) {
     Assembly a = assemble(scene::small_packing(400), scene::small_cylinder(), {}, Features{}, 1);
     if (disc)

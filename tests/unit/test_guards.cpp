@@ -2,9 +2,9 @@
 // specimen that fails as violently as the law allows.
 #include <doctest/doctest.h>
 
-#include "core/error.hpp"
-#include "core/guards.hpp"
-#include "core/load_test.hpp"
+#include "core/base/error.hpp"
+#include "core/loading/guards.hpp"
+#include "core/loading/protocol.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "core/error.hpp"
-#include "io/case_schema.hpp"
-#include "io/impact_case.hpp"
-#include "io/impact_keys.hpp"
+#include "core/base/error.hpp"
+#include "io/cases/impact_case.hpp"
+#include "io/cases/impact_keys.hpp"
+#include "io/cases/keys_schema.hpp"
 #include "scratch_folder.hpp"
 
 using namespace breccia;

@@ -16,13 +16,13 @@
 #include <sstream>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/row_order.hpp"
-#include "io/curve.hpp"
-#include "io/results_h5.hpp"
-#include "io/summary.hpp"
-#include "io/vtp.hpp"
-#include "io/write_aside.hpp"
+#include "core/base/error.hpp"
+#include "core/tables/row_order.hpp"
+#include "io/files/atomic_write.hpp"
+#include "io/results/curve_csv.hpp"
+#include "io/results/results_h5.hpp"
+#include "io/results/summary_json.hpp"
+#include "io/results/vtp.hpp"
 
 namespace fs = std::filesystem;
 using namespace breccia;
@@ -202,7 +202,9 @@ TEST_CASE("outputs: a file that is not HDF5, or is gone, is a FileTrouble in one
   const TemporaryFolder folder;
   const Scene scene;
   const fs::path file = folder.path / "results.h5";
-  const auto append = [&] { append_frame(file, 0, 0, {}, share_alone(scene.particles.size), scene.particles, scene.bonds); };
+  const auto append = [&] {
+    append_frame(file, 0, 0, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  };
   CHECK(contains(trouble_of(append), "No such file"));
   write_aside(file, "not HDF5");
   const std::string line = trouble_of(append);
@@ -285,7 +287,8 @@ TEST_CASE("outputs: results.h5 as h5py reads it") {
   begin_run(file, 0, attributes, share_alone(scene.particles.size), scene.particles, scene.bonds);
   append_frame(file, 0, 0, {0.0, 0, 0.0}, share_alone(scene.particles.size), scene.particles, scene.bonds);
   append_frame(file, 0, 1, {1e-3, 10, 1e-4}, share_alone(scene.particles.size), scene.particles, scene.bonds);
-  append_frame(file, 0, 1, {2e-3, 20, 2e-4}, share_alone(scene.particles.size), scene.particles, scene.bonds);  // as after a resume
+  append_frame(file, 0, 1, {2e-3, 20, 2e-4}, share_alone(scene.particles.size), scene.particles,
+               scene.bonds);  // as after a resume
   Features few;
   few.rotation = few.contact_damping = few.plasticity = few.breakage = false;
   const Scene lean(few);
@@ -308,8 +311,10 @@ TEST_CASE("outputs: a specimen without bonds is written and read") {
   Scene scene;
   scene.bonds.resize(0, {}, 8);
   create_results(folder.path / "results.h5", "");
-  begin_run(folder.path / "results.h5", 0, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
-  append_frame(folder.path / "results.h5", 0, 0, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  begin_run(folder.path / "results.h5", 0, {}, share_alone(scene.particles.size), scene.particles,
+            scene.bonds);
+  append_frame(folder.path / "results.h5", 0, 0, {}, share_alone(scene.particles.size), scene.particles,
+               scene.bonds);
   write_frame_vtp(folder.path / "frames", 0, 0, 0.0, scene.particles, scene.bonds);
   check_with_python("no-bonds '" + folder.path.string() + "'");
 }
@@ -341,7 +346,9 @@ TEST_CASE("outputs: on a full disk the earlier frames stay readable, and one lin
   int frames = 0;
   std::string line;
   while (frames < 20 && line.empty()) {
-    line = trouble_of([&] { append_frame(file, 0, frames, {}, share_alone(scene.particles.size), scene.particles, scene.bonds); });
+    line = trouble_of([&] {
+      append_frame(file, 0, frames, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+    });
     if (line.empty()) ++frames;
   }
   CAPTURE(line);
@@ -398,7 +405,8 @@ TEST_CASE(
     ::waitpid(child, nullptr, 0);
     while (const ssize_t more = ::read(written[0], buffer, sizeof buffer)) frames += more;
     ::close(written[0]);
-    append_frame(file, 0, static_cast<int>(frames), {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+    append_frame(file, 0, static_cast<int>(frames), {}, share_alone(scene.particles.size), scene.particles,
+                 scene.bonds);
     arguments += " '" + file.string() + "' " + std::to_string(frames + 1);
   }
   check_with_python(arguments);
@@ -409,8 +417,10 @@ TEST_CASE("outputs: more frames and runs than usual") {
   const Scene scene;
   const fs::path file = folder.path / "results.h5";
   create_results(file, "");
-  for (int run = 0; run < 70; ++run) begin_run(file, run, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
-  for (int frame = 0; frame < 140; ++frame) append_frame(file, 0, frame, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  for (int run = 0; run < 70; ++run)
+    begin_run(file, run, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  for (int frame = 0; frame < 140; ++frame)
+    append_frame(file, 0, frame, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
   check_with_python("frames '" + file.string() + "' 140");
 }
 

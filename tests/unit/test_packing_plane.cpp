@@ -9,11 +9,11 @@
 #include <numbers>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/packing.hpp"
-#include "core/packing_body.hpp"
-#include "core/packing_genesis.hpp"
-#include "core/packing_sizes.hpp"
+#include "core/base/error.hpp"
+#include "core/packing/genesis.hpp"
+#include "core/packing/packing.hpp"
+#include "core/packing/region.hpp"
+#include "core/packing/sizes.hpp"
 
 using namespace breccia;
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "core/error.hpp"
-#include "io/read_specimen.hpp"
+#include "core/base/error.hpp"
+#include "io/specimens/read_specimen.hpp"
 #include "scratch_folder.hpp"
 
 using namespace breccia;

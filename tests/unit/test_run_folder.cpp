@@ -2,9 +2,9 @@
 
 #include <fstream>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "io/files/digest.hpp"
-#include "io/run_folder.hpp"
+#include "io/files/run_folder.hpp"
 #include "io/text/input_file.hpp"
 #include "scratch_folder.hpp"
 
@@ -43,6 +43,20 @@ TEST_CASE("The list of a folder knows what breccia wrote, and nothing else") {
   CHECK(names_in(folder / "frames/run-0", ".vtp") == std::vector<std::string>{"bonds-.vtp", "bonds-x.vtp"});
   CHECK(fs::exists(folder / "frames/run-0/bonds-7.vtp.bak"));
   CHECK(fs::exists(folder / "notes.txt"));
+}
+
+TEST_CASE("A folder of a version that kept no list is known by its resolved case") {
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path / "out";
+  write(folder / "case.toml", "[specimen]\n");
+  CHECK_THROWS_AS(claim_run_folder(folder, Old::replace, use), BadInput);
+  write(folder / "case.toml", "# breccia-ucs: the case with every default written out\n");
+  write(folder / "curve-0.csv", "mine, or of a test that this one is not");
+  CHECK_THROWS_AS(claim_run_folder(folder, Old::refuse, use), BadInput);
+  CHECK(fs::exists(folder / "case.toml"));
+  claim_run_folder(folder, Old::replace, use);
+  CHECK_FALSE(fs::exists(folder / "case.toml"));
+  CHECK(fs::exists(folder / "curve-0.csv"));
 }
 
 TEST_CASE("A folder is locked as long as the lock is held, also within one process") {

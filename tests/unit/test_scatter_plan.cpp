@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "core/parallel.hpp"
-#include "core/scatter_plan.hpp"
+#include "core/base/threads.hpp"
+#include "core/ranks/scatter_plan.hpp"
 
 using namespace breccia;
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/share.hpp"
+#include "core/ranks/partition.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -36,8 +36,10 @@ TEST_CASE("share: ranks own whole blocks, all rows once, and the same work to wi
   }
   const Share s = share_of_rank(w, {0, 2});
   std::size_t work[2] = {0, 0};
-  for (std::size_t k = 0; k < w.bonds.size; ++k) ++work[s.owner(std::min(w.bonds.row_lo[k], w.bonds.row_hi[k]))];
-  CHECK(std::abs(static_cast<double>(work[0]) - static_cast<double>(work[1])) < 12.0 * static_cast<double>(s.block));
+  for (std::size_t k = 0; k < w.bonds.size; ++k)
+    ++work[s.owner(std::min(w.bonds.row_lo[k], w.bonds.row_hi[k]))];
+  CHECK(std::abs(static_cast<double>(work[0]) - static_cast<double>(work[1])) <
+        12.0 * static_cast<double>(s.block));
 }
 
 TEST_CASE("share: owned rows of a part are those of both") {
@@ -52,11 +54,14 @@ TEST_CASE("share: owned rows of a part are those of both") {
 
 TEST_CASE("sums: the same bits for any number of threads, and rows, lists and pairs counted once") {
   const World w = small_world();
-  const auto term = [](std::size_t k) { return std::sin(1.0 + static_cast<double>(k)) * std::pow(10.0, k % 17); };
+  const auto term = [](std::size_t k) {
+    return std::sin(1.0 + static_cast<double>(k)) * std::pow(10.0, k % 17);
+  };
   std::vector<double> blocks;
   std::vector<Row> list;
   for (Row row = 0; row < w.particles.size; row += 3) list.push_back(row);
-  const double rows = sum_particles(w.share, 1, blocks, term), listed = sum_listed(w.share, list, 1, blocks, term),
+  const double rows = sum_particles(w.share, 1, blocks, term),
+               listed = sum_listed(w.share, list, 1, blocks, term),
                pairs = sum_pairs(w.share, w.bonds, 1, blocks, term);
   for (const int threads : {2, 3, 7}) {
     CHECK(sum_particles(w.share, threads, blocks, term) == rows);

@@ -4,10 +4,10 @@
 
 #include <numeric>
 
-#include "core/elastic_network.hpp"
-#include "core/error.hpp"
-#include "core/largest_eigenvalue.hpp"
-#include "core/time_step.hpp"
+#include "core/base/error.hpp"
+#include "core/base/largest_eigenvalue.hpp"
+#include "core/elastic/critical_step.hpp"
+#include "core/elastic/elastic_network.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -104,7 +104,7 @@ TEST_CASE("time step: undamped chain dt = 2/omega_max, omega_max = 2 sqrt(k/m) c
   CHECK(std::abs(exact_time_step(scene_of(chain(60, elastic(0, 0)))) / fibre - 1) < 1e-3);
 }
 
-TEST_CASE("time step: damped pair and chain under each scheme, lambda(dt) = 1/(1 + alpha) [MODEL 8, 1e-6]") {
+TEST_CASE("time step: damped pair and chain under each scheme, lambda(dt) = 1/(1 + alpha) [(B41), 1e-6]") {
   for (const DampingScheme scheme : schemes)
     for (const std::size_t n : {2, 3, 12})
       for (const double xi : {0.1, 0.9})
@@ -135,7 +135,7 @@ TEST_CASE("time step: rolling pair, k_s on slip and both rotations, k_s (2/m + 2
   check_step(w, 1 / std::sqrt(2.0 * w.bonds.stiffness[0] * 7 / w.particles.mass[0] / 4));
 }
 
-TEST_CASE("time step: a light stiff pair apart from 400 others decides [MODEL 8, 1e-6]") {
+TEST_CASE("time step: a light stiff pair apart from 400 others decides [(B43), 1e-6]") {
   std::vector<Ball> balls;
   for (std::size_t k = 0; k < 400; ++k) balls.push_back({k + 1, 0.01, {0, 0, 0.02 * double(k)}});
   balls.push_back({401, 0.0005, {1, 0, 0}});

@@ -1,0 +1,330 @@
+#include "io/cases/case.hpp"
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "io/cases/accuracy.hpp"
+#include "io/cases/keys_material.hpp"
+#include "io/cases/keys_write.hpp"
+#include "io/files/digest.hpp"
+#include "io/specimens/read_specimen.hpp"
+#include "io/text/input_file.hpp"
+#include "io/text/message_line.hpp"
+#include "io/text/suggest.hpp"
+
+namespace breccia {
+namespace {
+
+bool is_material(std::string_view name) { return name.starts_with("material."); }
+bool is_pack(std::string_view name) { return name.starts_with("specimen.pack."); }
+
+bool gives_pack(const Layer& layer) {
+  return std::any_of(layer.begin(), layer.end(), [](const auto& entry) { return is_pack(entry.first); });
+}
+
+/// Takes the material's keys, or all others, out of a layer.
+Layer part_of(const Layer& layer, bool material) {
+  Layer part;
+  for (const auto& [name, given] : layer)
+    if ((is_material(name) && name != "material.preset") == material) part.emplace(name, given);
+  return part;
+}
+
+/// Whether a key that was not given takes its default in this case.
+bool takes_standard(const Key& key, const Layer& layer, const std::string& test) {
+  if (layer.contains(key.name) || is_material(key.name) || standard_of(key, test).empty()) return false;
+  if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) return false;
+  const Key* other = rival(key);
+  if (other && layer.contains(other->name)) return false;
+  if (!is_pack(key.name)) return true;
+  if (key.name == "specimen.pack.porosity" && layer.contains("specimen.pack.genesis_pressure")) return false;
+  if (key.name == "specimen.pack.sizes.spread") {
+    const auto kind = layer.find("specimen.pack.sizes.kind");
+    if (kind != layer.end() && kind->second.reading.word == "sieves") return false;
+  }
+  return gives_pack(layer);
+}
+
+/// Cross-checks: what one key says about another. Places are those of the keys.
+struct Checks {
+  const Layer& layer;
+  const Case& c;
+  const std::string& test;
+  std::string file;
+
+  std::string place(std::string_view name) const {
+    const auto given = layer.find(name);
+    return given == layer.end() || given->second.place.empty() ? file : given->second.place;
+  }
+  bool has(std::string_view name) const { return layer.contains(name); }
+  [[noreturn]] void no(std::string_view name, const std::string& text) const {
+    refuse(place(name), name, text);
+  }
+
+  void specimen() const {
+    if (!c.specimen.file && !c.specimen.pack)
+      no(test == "pack" ? "specimen.pack" : "specimen.file",
+         test == "pack" ? "missing; write [specimen.pack] with spheres = N"
+                        : "missing; name a .csv or .mdpa file, or write [specimen.pack]");
+    body();
+    // guessed wrongly, a disc is pressed along its own axis
+    const auto axis = layer.find("specimen.axis");
+    if (test == "bts" && c.specimen.file && (axis == layer.end() || axis->second.place.empty()))
+      no("specimen.axis",
+         "missing; a Brazilian test must know the axis of the disc in the file: \"x\", \"y\" or \"z\"");
+    if (c.specimen.file) return;
+    if (has("specimen.sha256")) no("specimen.sha256", "belongs to specimen.file; leave it out");
+    packing();
+  }
+
+  void body() const {
+    const Body& body = c.specimen.body;
+    const bool box = body.shape == Shape::box, disc = body.shape == Shape::disc;
+    if (c.specimen.space == Space::plane) return body_in_plane();
+    if (!has("specimen.diameter")) no("specimen.diameter", "missing; give the nominal diameter, \"150 mm\"");
+    if (!has("specimen.height"))
+      no("specimen.height", "missing; give the nominal height along the axis, \"300 mm\"");
+    if (box && !has("specimen.depth"))
+      no("specimen.depth", "missing; a box has its width along x as diameter, and a depth");
+    if (!box && has("specimen.depth")) no("specimen.depth", "belongs to shape = \"box\"; leave it out");
+    if (test == "bts" && !disc) no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
+    if (test == "biaxial")
+      no("specimen.dimensions", "a biaxial test has two; valid: 2 (in three: breccia-triaxial)");
+    if (test == "pack" || test == "bts") return;
+    const bool boxes = test == "ucs" || test == "tension" || test == "shear";
+    if (disc || (box && !boxes)) {
+      const std::string text = fmt::format("{}: specimen.shape \"{}\" does not go with breccia-{}; valid: {}",
+                                           place("specimen.shape"),
+                                           disc  ? "disc"
+                                           : box ? "box"
+                                                 : "cylinder",
+                                           test, boxes ? "\"cylinder\", \"box\"" : "\"cylinder\"");
+      throw BadInput(text);
+    }
+  }
+
+  void body_in_plane() const {
+    const Shape shape = c.specimen.body.shape;
+    if (test == "triaxial" || test == "usc" || test == "hydrostatic" || test == "shear")
+      no("specimen.dimensions", fmt::format("breccia-{} has three; valid: 3{}", test,
+                                            test == "triaxial" ? " (in two: breccia-biaxial)" : ""));
+    if (shape == Shape::cylinder)
+      no("specimen.shape", "a 2-D scene has no cylinder; valid: \"box\" (a rectangle), \"disc\" (a circle)");
+    if (test == "bts" && shape != Shape::disc)
+      no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
+    if (!has("specimen.diameter"))
+      no("specimen.diameter",
+         "missing; give the diameter of the circle or the width of the rectangle, \"50 mm\"");
+    if (shape == Shape::box && !has("specimen.height"))
+      no("specimen.height", "missing; give the height of the rectangle, \"100 mm\"");
+    if (shape == Shape::disc && test != "bts" && test != "pack")
+      no("specimen.shape", fmt::format("breccia-{} presses a rectangle; valid: \"box\"", test));
+    if (shape == Shape::disc && has("specimen.height"))
+      no("specimen.height", "a disc in a 2-D scene is 1 m thick; leave it out");
+    if (has("specimen.depth")) no("specimen.depth", "a 2-D scene is 1 m thick; leave it out");
+  }
+
+  void packing() const {
+    if (has("specimen.pack.genesis_pressure") && c.specimen.space != Space::plane)
+      no("specimen.pack.genesis_pressure",
+         "presses discs in a plane; write specimen.dimensions = 2 or leave it out");
+    if (c.specimen.axis != 'z') no("specimen.axis", "a packing made here has its axis along z; valid: \"z\"");
+    if (c.specimen.centre) no("specimen.centre", "belongs to specimen.file; a packing made here is centred");
+    if (!has("specimen.pack.spheres")) no("specimen.pack.spheres", "missing; give the number of spheres");
+    const SizeDistribution& sizes = c.specimen.pack->sizes;
+    const bool sieves = sizes.kind == SizeDistribution::Kind::sieves;
+    const std::string_view spread = "specimen.pack.sizes.spread", openings = "specimen.pack.sizes.openings",
+                           passing = "specimen.pack.sizes.passing";
+    if (sieves && has(spread)) no(spread, "belongs to kind \"lognormal\" or \"uniform\"; leave it out");
+    for (const auto name : {openings, passing}) {
+      if (sieves && !has(name)) no(name, "missing; kind \"sieves\" has openings and passing");
+      if (!sieves && has(name)) no(name, "belongs to kind = \"sieves\"; leave it out");
+    }
+    if (!sieves) return;
+    if (sizes.sieve_openings.size() != sizes.sieve_passing.size() || sizes.sieve_openings.size() < 2)
+      no(passing, fmt::format("{} values for {} openings; give as many of both, two or more",
+                              sizes.sieve_passing.size(), sizes.sieve_openings.size()));
+    for (std::size_t i = 1; i < sizes.sieve_openings.size(); ++i)
+      if (!(sizes.sieve_openings[i] > sizes.sieve_openings[i - 1]))
+        no(openings, "two openings are equal; join them");
+    if (sizes.sieve_passing.back() != 1)
+      no(passing,
+         fmt::format("must end with 1, not {}: all passes the last sieve", sizes.sieve_passing.back()));
+  }
+
+  void loading() const {
+    if (test == "hydrostatic" || test == "shear") {
+      if (!has("test.confinement"))
+        no("test.confinement", test == "shear"
+                                   ? "missing; give the normal stresses on the lid, [\"1 MPa\", \"5 MPa\"]"
+                                   : "missing; give the pressure to reach, [\"650 MPa\"]");
+      for (double p : c.test.confinement)
+        if (!(p > 0)) no("test.confinement", "must be more than 0 Pa");
+    }
+    if (c.test.load_axis == c.specimen.axis)
+      no("test.load_axis", "is the disc's own axis (specimen.axis); a disc is pressed across it");
+    if (test != "ucs") return;
+    for (double p : c.test.confinement)
+      if (p != 0)
+        no("test.confinement",
+           fmt::format("{}: an unconfined test has none; leave it out, or use breccia-triaxial",
+                       format_quantity(p, dimension::stress)));
+  }
+
+  void law(const std::string& name, const std::string& where) const {
+    const bool of_bonds = facts_of(name).has("normal_stiffness");
+    if (of_bonds && c.bonds.alpha_rule != AlphaRule::number)
+      no("bonds.alpha",
+         fmt::format("law {} has stiffnesses of its own, no area to scale; leave it out", quote(name)));
+    if (of_bonds && c.specimen.space != Space::plane)
+      refuse(where, "material.law",
+             fmt::format("law {} is one of discs; set specimen.dimensions = 2", quote(name)));
+  }
+
+  /// A [[material.at]] that no run uses is a slip of the pen, unless --set has chosen other confinements.
+  void confinements(const std::vector<ConfinementLayer>& groups) const {
+    if (const Key* key = find_key("test.confinement"); !accepts(*key, test) && !groups.empty())
+      refuse(groups.front().place, "material.at", fmt::format("{}; leave it out", key->why_not));
+    if (place("test.confinement") == "--set") return;
+    std::string list;
+    for (double p : c.test.confinement)
+      list += (list.empty() ? "" : ", ") + format_quantity(p, dimension::stress);
+    for (const ConfinementLayer& group : groups) {
+      const bool used = std::any_of(c.test.confinement.begin(), c.test.confinement.end(),
+                                    [&](double p) { return same_confinement(p, group.confinement); });
+      if (!used)
+        refuse(group.place, "material.at",
+               fmt::format("no run has confinement {}; test.confinement has: {}",
+                           format_quantity(group.confinement, dimension::stress), list));
+    }
+  }
+};
+
+/// The specimen's file stands relative to the case's folder.
+std::filesystem::path find_specimen(const std::filesystem::path& case_file, const Given& given) {
+  const std::filesystem::path file = (case_file.parent_path() / given.reading.word).lexically_normal();
+  try {
+    check_specimen_type(file);
+  } catch (const BadInput& error) {
+    refuse(given.place, "specimen.file", error.what());
+  }
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) {
+    if (const std::string why = why_no_file(file); !why.empty())
+      refuse(given.place, "specimen.file", fmt::format("{}: {}", file.string(), why));
+    return file;
+  }
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  const std::string best = nearest(file.filename().string(), names_in(folder, file.extension()));
+  refuse(given.place, "specimen.file",
+         fmt::format("no file {}{}", quote(file.string()),
+                     best.empty() ? "; the path starts at the case's folder"
+                                  : "; did you mean " + quote(best) + "?"));
+}
+
+/// The resolved case names the file by its whole path, and by its content.
+/// @returns the digest of what it holds
+std::string resolve_specimen(const std::filesystem::path& file, Layer& layer) {
+  Given& given = layer.find("specimen.file")->second;
+  const std::string whole = std::filesystem::absolute(file).lexically_normal().string();
+  if (!is_utf8(whole))
+    refuse(given.place, "specimen.file",
+           fmt::format("{}: this path is not UTF-8, as a case must be: rename the folder or the file", whole));
+  given.reading.word = whole;
+  Given& digest = layer["specimen.sha256"];
+  const std::string now = sha256_of(file);
+  if (!digest.reading.word.empty() && digest.reading.word != now)
+    refuse(digest.place, "specimen.sha256",
+           fmt::format("{} has changed since; put it back as it was, or leave this line out", file.string()));
+  return digest.reading.word = now;
+}
+
+}  // namespace
+
+Case load_case(const std::filesystem::path& file, const std::vector<std::string>& sets,
+               const std::string& test) {
+  Case c;
+  c.source = file;
+  c.inputs = {file};
+  Source from_file = read_case_source(read_toml(file), test);
+  const Source from_set = read_set_source(sets, test);
+  for (const std::string& table : from_set.tables) erase_below(from_file.layer, table);
+
+  Layer layer = part_of(from_file.layer, false);
+  lay_over(layer, part_of(from_set.layer, false));
+  if (test == "pack")
+    std::erase_if(layer, [](const auto& entry) { return !entry.first.starts_with("specimen."); });
+  const auto place_of = [&](std::string_view name) {
+    const auto given = layer.find(name);
+    return given == layer.end() || given->second.place.empty() ? file.string() : given->second.place;
+  };
+
+  // the law comes first: it has defaults of its own
+  MaterialLayers layers{{},
+                        {},
+                        part_of(from_file.layer, true),
+                        from_file.at.value_or(std::vector<ConfinementLayer>{}),
+                        part_of(from_set.layer, true)};
+  if (from_set.at) layers.given_at = *from_set.at;
+  if (const auto preset = layer.find("material.preset"); preset != layer.end()) {
+    Source source = read_preset(preset->second.reading.word, place_of("material.preset"), file.parent_path());
+    c.inputs.push_back(source.file);
+    layers.preset = std::move(source.layer);
+    if (source.at) layers.preset_at = std::move(*source.at);
+  }
+  const Layer base = material_base(layers);
+  const std::string law = law_of(base);
+  const auto take = [&](std::string_view name, std::string_view value) {
+    const Key& key = *find_key(name);
+    if (test != "pack" && accepts(key, test) && !layer.contains(key.name))
+      layer[std::string(key.name)] = {read_standard_text(key, value), ""};
+  };
+  for (const LawStandard& standard : facts_of(law).standards) take(standard.key, standard.value);
+  if (const auto accuracy = layer.find("time.accuracy"); accuracy != layer.end())
+    for (const RecipeStandard& standard : accuracy_recipe(accuracy->second.reading.word))
+      take(standard.key, standard.value);
+  const Key& dimensions = *find_key("specimen.dimensions");
+  const auto asked = layer.find(dimensions.name);
+  const bool plane =
+      (asked == layer.end() ? read_standard(dimensions, test) : asked->second.reading).whole == 2;
+  for (const Key& key : all_keys())
+    if (takes_standard(key, layer, test))
+      layer[std::string(key.name)] = {read_standard(key, test, plane ? Space::plane : Space::solid), ""};
+
+  for (const Key& key : all_keys())
+    if (const auto given = layer.find(key.name); given != layer.end() && key.store)
+      key.store(c, given->second.reading);
+  const Checks checks{layer, c, test, file.string()};
+  checks.specimen();
+  if (plane) {
+    if (c.specimen.body.shape == Shape::disc) c.specimen.body.height = c.specimen.body.diameter;
+    if (c.specimen.pack) c.specimen.pack->space = Space::plane;
+  }
+  if (test != "pack") checks.loading();
+  if (c.specimen.file) {
+    c.specimen.file = find_specimen(file, layer.find("specimen.file")->second);
+    c.specimen.sha256 = resolve_specimen(*c.specimen.file, layer);
+    c.inputs.push_back(*c.specimen.file);
+  }
+  if (test == "pack") {
+    c.resolved = write_case(layer, {}, {}, test);
+    return c;
+  }
+
+  checks.confinements(layers.given_at);
+  refuse_foreign_keys(layers.given, law);
+  refuse_foreign_keys(layers.set, law);
+  for (const ConfinementLayer& group : layers.given_at) refuse_foreign_keys(group.layer, law);
+  checks.law(law, base.at("material.law").place);
+  std::vector<ConfinementLayer> at;
+  for (double confinement : c.test.confinement) {
+    Layer material = material_at(layers, confinement);
+    c.materials.push_back(make_material(material, c.features, c.bonds.elasticity, file.string()));
+    if (!find_confinement(at, confinement)) at.push_back({confinement, std::move(material), ""});
+  }
+  layer.erase("material.preset");  // the resolved case carries the values themselves
+  c.resolved = write_case(layer, base, at, test);
+  return c;
+}
+
+}  // namespace breccia

@@ -1,0 +1,95 @@
+#include "io/cases/keys_write.hpp"
+
+#include "core/base/error.hpp"
+#include "io/text/suggest.hpp"
+
+namespace breccia {
+namespace {
+
+std::string_view table_of(const Key& key) { return key.name.substr(0, key.name.rfind('.')); }
+std::string_view word_of(const Key& key) { return key.name.substr(key.name.rfind('.') + 1); }
+
+void write_line(std::string& text, const Key& key, const Reading& reading) {
+  text += fmt::format("{} = {}\n", word_of(key), write_value(key, reading));
+}
+
+/// Only what a confinement changes, so that a reader sees it.
+void write_at(std::string& text, const ConfinementLayer& at, const Layer& base) {
+  std::string lines;
+  for (const Key& key : all_keys()) {
+    const auto here = at.layer.find(key.name), there = base.find(key.name);
+    if (here == at.layer.end()) continue;
+    if (there != base.end() &&
+        write_value(key, here->second.reading) == write_value(key, there->second.reading))
+      continue;
+    write_line(lines, key, here->second.reading);
+  }
+  if (lines.empty()) return;
+  const std::string confinement = format_quantity(at.confinement, dimension::stress);
+  text += fmt::format("\n[[material.at]]\nconfinement = {}\n{}", toml_string(confinement), lines);
+}
+
+}  // namespace
+
+std::string describe_values(const Key& key) {
+  switch (key.kind) {
+    case Kind::boolean:
+      return key.later == "true" ? "false" : "true, false";
+    case Kind::word:
+      return quote_list(split_words(key.words));
+    case Kind::word_or_number:
+      return quote_list(split_words(key.words)) + ", number " + describe(key.range, key.dimension);
+    case Kind::text:
+      return "text";
+    default:
+      break;
+  }
+  const std::string range = describe(key.range, key.dimension);
+  const std::string what = key.kind == Kind::whole_number ? "a whole number" : describe(key.dimension);
+  const std::string list = key.kind != Kind::quantities ? ""
+                           : key.count                  ? fmt::format("{} x ", key.count)
+                                                        : "list of ";
+  return list + what + (range.empty() ? "" : ", ") + range + (key.rising ? ", rising" : "");
+}
+
+std::string write_case(const Layer& keys, const Layer& base, const std::vector<ConfinementLayer>& at,
+                       const std::string& test) {
+  std::string text = fmt::format("# breccia-{}: the case with every default written out\n", test);
+  std::string_view table;
+  const auto end_material = [&] {
+    if (table == "material")
+      for (const ConfinementLayer& group : at) write_at(text, group, base);
+  };
+  for (const Key& key : all_keys()) {
+    const Layer& layer = table_of(key) == "material" ? base : keys;
+    const auto given = layer.find(key.name);
+    if (given == layer.end()) continue;
+    if (table_of(key) != table) {
+      end_material();
+      table = table_of(key);
+      text += fmt::format("\n[{}]\n", table);
+    }
+    write_line(text, key, given->second.reading);
+  }
+  end_material();
+  return text;
+}
+
+std::string describe_keys(const std::string& test) {
+  std::string text =
+      fmt::format("keys of a case for breccia-{} (a quantity: \"3.8 GPa\", or a bare number in SI)\n", test);
+  std::string_view table;
+  for (const Key& key : all_keys()) {
+    if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) continue;
+    if (table_of(key) != table) table = table_of(key), text += fmt::format("\n[{}]\n", table);
+    const std::string_view standard = standard_of(key, test);
+    text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), describe_values(key),
+                        standard.empty() ? "-" : standard, key.meaning);
+    if (key.name == "material.preset" && accepts(*find_key("test.confinement"), test))
+      text += fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
+                          "a table [[material.at]]: keys of the material for one confinement");
+  }
+  return text;
+}
+
+}  // namespace breccia
