@@ -10,12 +10,12 @@ namespace breccia {
 
 /// Their names in the variable are these, with a dash for the underscore.
 enum class HoldPoint : std::uint8_t {
-  packing,  ///< before spheres are packed
-  step,     ///< after a step of the recorded stage of a test
-  crack,    ///< a crack has been written to its file; counted one by one
-  row,      ///< between two rows of a curve, just before the run asks whether it is to stop
-  frame,    ///< a frame is whole, in results.h5 and for ParaView
-  run,      ///< a run's curve and summary are written, the next one of the series has not begun
+  packing,             ///< before spheres are packed
+  step,                ///< after a step of the recorded stage of a test
+  crack,               ///< a crack has been written to its file; counted one by one
+  row,                 ///< between two rows of a curve, just before the run asks whether it is to stop
+  frame,               ///< a frame is whole, in results.h5 and for ParaView
+  run,                 ///< a run's curve and summary are written, the next one of the series has not begun
   results_claimed,     ///< results.h5 has grown by the room for a new group, nothing is in it
   results_filled,      ///< the group is written, not flushed, and nothing refers to it
   results_flushed,     ///< the group is flushed, nothing refers to it
@@ -40,7 +40,7 @@ void arrive(HoldPoint point, std::size_t count);
 
 /// Says that the program has come to a point, or to `count` of them at once. Of several ranks the
 /// root alone says so. Any thread may.
-/// @throws FileTrouble when FILE cannot be written
+/// @throws WriteError when FILE cannot be written
 inline void hold_at(HoldPoint point, std::size_t count = 1) {
   if (detail::hold_is_set) detail::arrive(point, count);
 }

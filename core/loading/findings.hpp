@@ -62,6 +62,8 @@ struct RunSummary {
   std::string state_hash;                                        ///< 16 hex digits
   std::string stopped_by;             ///< "strain", "peak drop", "interrupted", ...
   std::vector<std::string> warnings;  ///< one line each; empty when all is well
+  /// SHA-256 of the run's files, by name: curve-K.csv, cracks-K.csv
+  std::vector<std::pair<std::string, std::string>> files;
 };
 
 /// Straight line through the peaks of a series: shear strength over pressure.
@@ -79,6 +81,8 @@ struct SeriesSummary {
   int ranks = 1;
   std::vector<RunSummary> runs;             ///< run K is runs[K], curve-K.csv, results.h5:/run-K
   std::optional<MohrCoulomb> mohr_coulomb;  ///< only where there were enough peaks
+  /// SHA-256 of all files that were read, by name
+  std::vector<std::pair<std::string, std::string>> inputs{};
 };
 
 }  // namespace breccia

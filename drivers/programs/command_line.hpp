@@ -24,7 +24,7 @@ struct CommandLine {
   bool explain = false, dry_run = false, force = false, quiet = false, resume = false;
 };
 
-/// True once SIGINT, SIGTERM or SIGUSR1 has come.
+/// True once SIGINT, SIGTERM, SIGUSR1 or SIGXCPU has come.
 bool interrupted();
 
 /// From here on a signal only makes `interrupted()` true; before, it ends the program at once.
@@ -33,8 +33,9 @@ void begin_results();
 /// Cores of the affinity mask.
 int available_cores();
 
-/// Reads the words after the program's name. @returns nothing when the program is to run; else its exit code,
-/// after --help, --version, or one line on stderr
+/// Readies the process (streams, signals) and reads the words after the program's name.
+/// @returns nothing when the program is to run; else its exit code, after --help, --version, or one line on stderr;
+/// of several ranks the root alone speaks
 std::optional<int> read_command_line(CLI::App& app, int argc, char** argv);
 
 /// Runs `body` on at most `threads` threads and turns what it throws into one line on stderr and the exit

@@ -10,9 +10,10 @@ namespace {
 
 std::string_view cure_of(int error) {
   switch (error) {
+    case EFBIG:
+      return "the limit on the size of a file is reached (ulimit -f): raise it, or write less ([output])";
     case ENOSPC:
     case EDQUOT:
-    case EFBIG:
       return "free some space, or choose another folder with --out";
     case EACCES:
     case EPERM:

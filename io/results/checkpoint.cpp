@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t format = 1;  ///< of the file; another one is not read
+constexpr std::uint64_t format = 2;  ///< of the file; another one is not read
 
 const ColumnInfo listed_position{"Vec3",      "listed_position", "m",
                                  Role::state, Need::always,      "centre when contacts were last listed"};
@@ -149,7 +149,12 @@ std::optional<std::string> read_head(const fs::path& path, CheckpointHead& head)
   if (!is_sealed(path)) return "its checksum is not that of what is in it";
   try {
     const h5::Handle file = h5::open_to_read(path.string());
-    if (h5::read_id_attribute(file, "format") != format) return "another version of breccia wrote it";
+    if (const std::uint64_t found = h5::read_id_attribute(file, "format"); found != format)
+      fail<BadInput>(
+          "{}: another version of breccia wrote it (format {}, this one reads {}): go on with that version, "
+          "or run "
+          "anew with --force",
+          path.string(), found, format);
     head = {h5::read_text_attribute(file, "case"), h5::read_id_attribute(file, "run"),
             h5::read_text_attribute(file, "finished")};
   } catch (const h5::Failure& failure) {
@@ -206,7 +211,7 @@ std::optional<FoundCheckpoint> find_checkpoint(const fs::path& folder,
   h5::prepare();
   for (const fs::path& file : {newest(folder), before(folder)}) {
     std::error_code ignored;
-    if (!fs::exists(file, ignored)) continue;
+    if (!fs::is_regular_file(file, ignored)) continue;
     FoundCheckpoint found{file, {}};
     const auto trouble = read_head(file, found.head);
     if (!trouble) return found;

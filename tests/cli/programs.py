@@ -98,8 +98,9 @@ def main():
 
 
 def tree(folder):
-    """Every file below a folder, with its content."""
-    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+    """Every file below a folder, with its content; without the list that breccia keeps of its own."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*"))
+            if path.is_file() and path.name != ".breccia-files"}
 
 
 class ProgramTest(unittest.TestCase):

@@ -184,15 +184,14 @@ class Folders(ProgramTest):
 
         (self.out / "notes.txt").write_text("mine")
         (self.out / "frames" / "mine.pvd").write_text("mine")
-        (self.out / "frames" / "run-9").mkdir()
-        (self.out / "frames" / "run-9" / "bonds-000.vtp").write_text("left by a longer series")
+        (self.out / "frames" / "run-0" / "bonds-009.vtp").write_text("left by a longer series")
         self.assertEqual(run("ucs", self.case, "--out", self.out, "--force", "--set", "output.frames=1").returncode, 0)
         second = tree(self.out)
         self.assertEqual(second["notes.txt"], b"mine")
         self.assertEqual(second["frames/mine.pvd"], b"mine")
         gone = sorted(set(first) - set(second))
         self.assertEqual(gone, ["frames/run-0/bonds-002.vtp", "frames/run-0/particles-002.vtp"])
-        self.assertNotIn("frames/run-9/bonds-000.vtp", second)
+        self.assertNotIn("frames/run-0/bonds-009.vtp", second)
 
     def test_below_a_file(self):
         place = self.write("file", "") / "out"

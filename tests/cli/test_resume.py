@@ -161,7 +161,7 @@ class Resume(ProgramTest):
         self.interrupt("row:10")
         specimen = self.work / "specimen.csv"
         specimen.write_text("\n".join(specimen.read_text().splitlines()[:-1]) + "\n")
-        self.check_one_line(self.resume(), 2, "checkpoint.h5", "another specimen", "without --resume")
+        self.check_one_line(self.resume(), 2, "checkpoint.h5", "specimen.csv: has changed since", "--force")
 
     def test_a_finished_run_is_left_alone(self):
         self.case, self.out = self.shelf / "ucs.toml", self.whole

@@ -24,7 +24,7 @@ TEST_CASE("partition: ranks own whole blocks, all rows once, and the same work t
   for (const int count : {1, 2, 3, 5, 40}) {
     std::size_t rows = 0;
     for (int rank = 0; rank < count; ++rank) {
-      const Partition s = partition_of_rank(w, {rank, count});
+      const Partition s = partition_of_rank(w.particles.size, w.bonds, {rank, count});
       REQUIRE(s.bounds.size() == static_cast<std::size_t>(count) + 1);
       CHECK(s.bounds.front() == 0);
       CHECK(s.bounds.back() == w.particles.size);
@@ -35,7 +35,7 @@ TEST_CASE("partition: ranks own whole blocks, all rows once, and the same work t
     }
     CHECK(rows == w.particles.size);
   }
-  const Partition s = partition_of_rank(w, {0, 2});
+  const Partition s = partition_of_rank(w.particles.size, w.bonds, {0, 2});
   std::size_t work[2] = {0, 0};
   for (std::size_t k = 0; k < w.bonds.size; ++k)
     ++work[s.owner(std::min(w.bonds.row_lo[k], w.bonds.row_hi[k]))];

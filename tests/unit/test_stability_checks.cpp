@@ -93,7 +93,8 @@ TEST_CASE("stability checks: a test with a step beyond the limit is stopped befo
 }
 
 TEST_CASE(
-    "stability checks: no failure of a specimen fires, however violent, nor do pressure, unloading, fast platens") {
+    "stability checks: no failure of a specimen fires, however violent, nor do pressure, unloading, fast "
+    "platens") {
   ref::Parameters brittle;
   brittle.delta_n = brittle.delta_s = 0;
   brittle.xi = 0;
@@ -119,7 +120,9 @@ TEST_CASE(
   CHECK(end_of(crushed, compression(10.0, 0.05)) == "");
 }
 
-TEST_CASE("stability checks: the energy of a pair at a step s of its limit wavers by (1 + s)/(1 - s) [closed form]") {
+TEST_CASE(
+    "stability checks: the energy of a pair at a step s of its limit wavers by (1 + s)/(1 - s) [closed "
+    "form]") {
   ref::Parameters p;
   p.plasticity = p.breakage = p.contact_damping = false;
   p.xi = 0;
@@ -169,7 +172,8 @@ TEST_CASE("stability checks: a particle faster than a wave, sqrt(2 k/m) d0 for e
   CHECK(has(said(make_stability_checks(w), w), fmt::format("particle {} moves at", w.particles.gid[3])));
 }
 
-TEST_CASE("stability checks: a bond that turns through more than a right angle in a step, of nested spheres") {
+TEST_CASE(
+    "stability checks: a bond that turns through more than a right angle in a step, of nested spheres") {
   ref::Parameters p;
   Assembly a = scene::free_body({{4, 0.01, {0, 0, 0}}, {7, 0.01, {0, 0, 0.02}}, {9, 0.005, {1e-6, 0, 0}}},
                                 0.01, scene::options(p).features);
@@ -194,7 +198,8 @@ TEST_CASE("stability checks: a particle is lost ten sizes away") {
   CHECK(has(said(checks, w), fmt::format("particle {} is lost", w.particles.gid[8])));
 }
 
-TEST_CASE("stability checks: contacts that are stiffer than what the step was found from are named as the cause") {
+TEST_CASE(
+    "stability checks: contacts that are stiffer than what the step was found from are named as the cause") {
   Packed made = packed({});
   World& w = made.world;
   ContactTable& c = w.contacts;

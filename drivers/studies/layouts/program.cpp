@@ -31,7 +31,8 @@ LayoutScene packed(std::size_t spheres, const Material& material, int threads, P
 bool run_study(const LayoutsOptions& options) {
   LayoutsResults results{describe_machine(), "concrete", options.timing, operations_per_bond(), {}};
   const Material material = shipped_material(results.material, "breccia-layouts");
-  claim_run_folder(options.out, options.force);
+  const FolderLock lock = claim_run_folder(options.out, options.force ? Old::replace : Old::refuse,
+                                           {{"layouts.csv", "layouts.json"}, {}});
   Progress progress = make_progress(options.quiet);
   say(progress, layouts_heading(results));
   if (options.threads.back() > results.machine.cores)

@@ -32,7 +32,10 @@ void run_study(const ScalingOptions& options) {
   const std::vector<ScalingPoint> points = scaling_points(options, ranks.count);
   ScalingResults results{describe_machine(), options.blocks, "concrete", {}};
   const Material material = shipped_material(results.material, "breccia-scaling");
-  if (ranks.is_root()) claim_run_folder(options.out, options.force);
+  FolderLock lock;
+  if (ranks.is_root())
+    lock = claim_run_folder(options.out, options.force ? Old::replace : Old::refuse,
+                            {{"scaling.csv", "scaling.json"}, {}});
   Progress progress = make_progress(options.quiet || !ranks.is_root());
   say(progress, heading(options, results));
   // a signal ends the program at once: the files hold what has been measured
