@@ -53,7 +53,7 @@ void write_process_id(const fs::path& file) {
   fs::path aside = file;
   aside += ".part";
   if (!(std::ofstream(aside) << ::getpid() << '\n').flush())
-    fail<FileTrouble>("BRECCIA_HOLD: {}: cannot be written", aside.string());
+    fail<WriteError>("BRECCIA_HOLD: {}: cannot be written", aside.string());
   fs::rename(aside, file);  // whoever sees it finds the number in it
 }
 

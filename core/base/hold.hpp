@@ -40,7 +40,7 @@ void arrive(HoldPoint point, std::size_t count);
 
 /// Says that the program has come to a point, or to `count` of them at once. Of several ranks the
 /// root alone says so. Any thread may.
-/// @throws FileTrouble when FILE cannot be written
+/// @throws WriteError when FILE cannot be written
 inline void hold_at(HoldPoint point, std::size_t count = 1) {
   if (detail::hold_is_set) detail::arrive(point, count);
 }
