@@ -56,7 +56,7 @@ class Ucs(ProgramTest):
 
     def test_summary(self):
         summary = self.read_summary()
-        self.assertEqual(list(summary), ["test", "version", "threads", "ranks", "runs"])
+        self.assertEqual(list(summary), ["test", "version", "threads", "ranks", "inputs", "runs"])
         self.assertEqual([summary[key] for key in ("test", "threads", "ranks")], ["ucs", 1, 1])
         (result,) = summary["runs"]
         self.assertEqual(list(result), RUN)
