@@ -11,7 +11,7 @@
 namespace breccia {
 namespace {
 
-bool are_bonded(const ContactSearch& search, Row a, Row b) {
+bool are_bonded(const NeighbourList& search, Row a, Row b) {
   return std::binary_search(search.partners.begin() + search.first_partner[a],
                             search.partners.begin() + search.first_partner[a + 1], b);
 }
@@ -38,8 +38,8 @@ struct EvenStretch {
 
 }  // namespace
 
-ContactSearch make_contact_search(const Assembly& a, bool enabled, double skin) {
-  ContactSearch s;
+NeighbourList make_neighbour_list(const Assembly& a, bool enabled, double skin) {
+  NeighbourList s;
   s.enabled = enabled;
   s.skin = skin;
   const auto& b = a.bonds;
@@ -68,19 +68,19 @@ ContactSearch make_contact_search(const Assembly& a, bool enabled, double skin) 
   return s;
 }
 
-bool search_is_due(ContactSearch& s, const ParticleTable& p, const Share& share, std::uint64_t step,
-                   double dt, int threads) {
+bool rebuild_is_due(NeighbourList& s, const ParticleTable& p, const Partition& partition, std::uint64_t step,
+                    double dt, int threads) {
   if (!s.enabled || step < s.next_check) return false;
   s.next_check = step + static_cast<std::uint64_t>(s.check_every);
 
   std::vector<EvenStretch> sums;  // along the axis: least squares of u_z over z
-  const EvenStretch even = sum_particles(share, threads, sums, [&](std::size_t row) {
+  const EvenStretch even = sum_particles(partition, threads, sums, [&](std::size_t row) {
     const double z = s.position[row].z;
     return EvenStretch{z * (p.position[row].z - z), z * z};
   });
   const double stretch = even.square > 0.0 ? even.top / even.square : 0.0;
   std::vector<Moved> blocks;
-  const Moved most = sum_particles(share, threads, blocks, [&](std::size_t row) {
+  const Moved most = sum_particles(partition, threads, blocks, [&](std::size_t row) {
     Vec3 u = p.position[row] - s.position[row];
     u.z -= stretch * s.position[row].z;
     return Moved{dot(u, u), dot(p.velocity[row], p.velocity[row])};
@@ -96,8 +96,9 @@ bool search_is_due(ContactSearch& s, const ParticleTable& p, const Share& share,
   return due;
 }
 
-void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTable& p,
-                    const ContactMaterial& material, const Features& features, bool ledger, int threads) {
+void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const ParticleTable& p,
+                            const ContactMaterial& material, const Features& features, bool ledger,
+                            int threads) {
   using std::numbers::pi;
   const bool first_list = !s.awake;
   s.awake = true;
@@ -133,7 +134,7 @@ void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTabl
     contacts.row_hi[k] = hi;
     // (B30)
     contacts.stiffness[k] = material.young * material.alpha *
-                            (material.space == Space::plane ? 2.0 * smaller : pi * smaller * smaller) / touch;
+                            (material.space == Space::two_d ? 2.0 * smaller : pi * smaller * smaller) / touch;
     if (features.rotation) contacts.arm_offset[k] = contact_arm_offset(p.radius[lo], p.radius[hi]);
     // pairs that overlap unbonded from the start are free of stress where they are
     contacts.free_length[k] = first_list ? std::min(touch, distance) : touch;  // (B31)

@@ -19,7 +19,8 @@ struct LayerForces {
   }
 };
 
-std::array<Vec3, 2> forces_on_layers(const ParticleTable& p, const Share& share, std::size_t first_top) {
+std::array<Vec3, 2> forces_on_layers(const ParticleTable& p, const Partition& partition,
+                                     std::size_t first_top) {
   std::vector<LayerForces> blocks;
   const auto held = [&](std::size_t row) { return std::max(row, p.free); };
   const auto force_on = [&](std::size_t row) {
@@ -27,7 +28,7 @@ std::array<Vec3, 2> forces_on_layers(const ParticleTable& p, const Share& share,
     f.force[row >= first_top] = p.force[row];
     return f;
   };
-  return sum_blocks(share, 1, blocks, held, each<LayerForces>(force_on)).force;
+  return sum_blocks(partition, 1, blocks, held, each<LayerForces>(force_on)).force;
 }
 
 }  // namespace
@@ -47,9 +48,9 @@ Platens make_platens(const Assembly& a, const ParticleTable& particles, bool rou
   return p;
 }
 
-void drive_platens(Platens& platens, const ParticleTable& particles, const Share& share,
+void drive_platens(Platens& platens, const ParticleTable& particles, const Partition& partition,
                    std::size_t first_top, double dt) {
-  platens.force = forces_on_layers(particles, share, first_top);
+  platens.force = forces_on_layers(particles, partition, first_top);
   for (const std::size_t k : {0u, 1u}) {
     Vec3& velocity = platens.velocity[k];
     if (platens.servo) {
@@ -68,7 +69,7 @@ void drive_platens(Platens& platens, const ParticleTable& particles, const Share
 Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid) {
   Confinement c;
   c.rigid = rigid;
-  c.plane = a.space == Space::plane;
+  c.plane = a.space == Space::two_d;
   c.rows = a.skin;
   c.surface = a.mantle();
   c.force.resize(c.rows.size());
@@ -109,16 +110,16 @@ struct SideSums {
   }
 };
 
-void press_sides(Confinement& c, ParticleTable& particles, const Share& share) {
+void press_sides(Confinement& c, ParticleTable& particles, const Partition& partition) {
   std::vector<SideSums> blocks;
-  const SideSums s = sum_listed(share, c.rows, 1, blocks, [&](std::size_t k) {
+  const SideSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     c.force[k] = {(x.x < 0.0 ? 1.0 : -1.0) * c.pressure * c.weight[k], 0.0, 0.0};
     return SideSums{1.0, x.z, x.z * x.z, c.force[k].x, x.z * c.force[k].x};
   });
   const double det = s.n * s.z2 - s.z1 * s.z1;
   const double a = (s.net * s.z2 - s.tilt * s.z1) / det, b = (s.n * s.tilt - s.z1 * s.net) / det;
-  for_own_entries(share, c.rows, [&](std::size_t k) {
+  for_owned_entries(partition, c.rows, [&](std::size_t k) {
     c.force[k].x -= a + b * particles.position[c.rows[k]].z;
     particles.force[c.rows[k]] += c.force[k];
   });
@@ -137,13 +138,13 @@ struct SkinSums {
 
 }  // namespace
 
-void press_skin(Confinement& c, ParticleTable& particles, const Share& share) {
+void apply_confinement(Confinement& c, ParticleTable& particles, const Partition& partition) {
   if (c.rigid || c.pressure == 0.0) return;
-  if (c.plane) return press_sides(c, particles, share);
+  if (c.plane) return press_sides(c, particles, partition);
   // (B72): radial forces leave a net force and moments about x and y: the smallest horizontal
   // correction a + b z + c (-y, x) that removes them and makes no moment about z
   std::vector<SkinSums> blocks;
-  const SkinSums s = sum_listed(share, c.rows, 1, blocks, [&](std::size_t k) {
+  const SkinSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     const double radial = x.x * x.x + x.y * x.y;
     const double inward = -c.pressure * c.weight[k] / std::sqrt(radial);
@@ -161,17 +162,17 @@ void press_skin(Confinement& c, ParticleTable& particles, const Share& share) {
   // clang-format on
   const Eigen::Vector<double, 5> left{s.net_x, s.net_y, s.tilt_x, s.tilt_y, 0.0};
   const Eigen::Vector<double, 5> by = gram.ldlt().solve(left);
-  for_own_entries(share, c.rows, [&](std::size_t k) {
+  for_owned_entries(partition, c.rows, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     c.force[k] -= Vec3{by[0] + by[2] * x.z - by[4] * x.y, by[1] + by[3] * x.z + by[4] * x.x, 0.0};
     particles.force[c.rows[k]] += c.force[k];
   });
 }
 
-void hold_skin(Confinement& c, ParticleTable& particles, const Share& share) {
+void restrain_laterally(Confinement& c, ParticleTable& particles, const Partition& partition) {
   if (!c.rigid) return;
   std::vector<double> blocks;
-  const double outward = sum_listed(share, c.rows, 1, blocks, [&](std::size_t k) {
+  const double outward = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     Vec3& force = particles.force[c.rows[k]];
     const double part = (x.x * force.x + x.y * force.y) / std::hypot(x.x, x.y);

@@ -163,7 +163,7 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
     inverse_diagonal[at + 2] = 0.0;  // prescribed: neither moved nor balanced
     if (rough) inverse_diagonal[at] = inverse_diagonal[at + 1] = 0.0;
   }
-  if (a.space == Space::plane)
+  if (a.space == Space::two_d)
     for (Eigen::Index at = 0; at < n; at += 6)
       inverse_diagonal[at + 1] = inverse_diagonal[at + 3] = inverse_diagonal[at + 5] = 0.0;
   // the affine field is a good first guess

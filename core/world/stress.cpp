@@ -56,7 +56,7 @@ void fill_stress_columns(World& w) {
   ParticleTable& p = w.particles;
   const auto share = [&](std::size_t row) {
     const double r = p.radius[row];
-    return w.space == Space::plane ? r * r : r * r * r;
+    return w.space == Space::two_d ? r * r : r * r * r;
   };
   double shares = 0.0;
   for (std::size_t row = 0; row < p.size; ++row) shares += share(row);

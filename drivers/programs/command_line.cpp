@@ -11,12 +11,15 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <sstream>
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "drivers/programs/ending.hpp"
 #include "io/cases/case.hpp"
+#include "io/cases/keys_reference.hpp"
 #include "io/files/standard_streams.hpp"
 #include "io/text/message_line.hpp"
 
@@ -50,13 +53,13 @@ void set_signals() {
 int end_rank(const Ranks& ranks, const std::string& program, std::string_view what, int code) {
   if (ranks.alone()) return end(program, what, code);
   if (!ranks.is_root()) {
-    std::this_thread::sleep_for(std::chrono::seconds(2));
+    std::this_thread::sleep_for(std::chrono::seconds(20));  // the root may be slow
     end(fmt::format("{}, rank {}", program, ranks.rank), what, code);
   } else {
     end(program, what, code);
   }
   std::fflush(nullptr);
-  end_job(code);
+  mpi_abort(code);
 }
 
 }  // namespace
@@ -86,7 +89,7 @@ std::optional<int> read_command_line(CLI::App& app, int argc, char** argv) {
       return end(app.get_name(), fmt::format("{} (see {} --help)", error.what(), app.get_name()), code);
     try {
       print_out(out.str());  // --help, --version
-    } catch (const FileTrouble& trouble) {
+    } catch (const WriteError& trouble) {
       return end(app.get_name(), trouble.what(), 4);
     }
     return 0;
@@ -102,23 +105,24 @@ int run_body(const std::string& program, int threads, const std::function<void()
                      fmt::format("{} ranks asked for; this program runs on one (use --threads)", ranks.count),
                      2)
                : 0;  // see above
-  ranks = join_job();
+  ranks = mpi_init();
   try {
     try_threads(threads);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
+    set_hold(std::getenv("BRECCIA_HOLD"), interrupted);
     body();
   } catch (...) {
     const Ending ending = ending_of(std::current_exception());
     return end_rank(ranks, program, ending.what, ending.code);
   }
-  leave_job();
+  mpi_finalize();
   return interrupted() ? 130 : 0;
 }
 
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,
                 const std::function<void(const CommandLine&)>& body, const std::string& keys,
-                bool several_ranks) {
+                bool several_ranks, std::string (*reference)()) {
   const std::string program = "breccia-" + name;
   CommandLine line;
   line.program = name;
@@ -135,6 +139,13 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   app.add_flag("--force", line.force, "replace results that are there");
   app.add_flag("--quiet", line.quiet, "errors only");
   app.add_flag("--resume", line.resume, "go on from the newest checkpoint in the folder of results");
+  // for scripts/case-reference: left out of --help, which has the same keys
+  app.add_flag_callback("--keys-markdown",
+                        [reference] {
+                          throw CLI::CallForVersion(reference ? reference() : case_reference(),
+                                                    0);  // printed, then exit code 0
+                        })
+      ->group("");
   app.footer(keys.empty() ? describe_keys(name) : keys);
   if (const auto code = read_command_line(app, argc, argv)) return *code;
   if (line.out.empty()) line.out = std::filesystem::path("out") / line.case_file.stem();

@@ -49,9 +49,10 @@ int run_body(const std::string& program, int threads, const std::function<void()
 /// @param about  one line for --help
 /// @param keys   the reference of keys for --help; empty: describe_keys(name)
 /// @param several_ranks  false: more than one is refused
+/// @param reference  what --keys-markdown prints; nothing: case_reference
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,
                 const std::function<void(const CommandLine&)>& body, const std::string& keys = {},
-                bool several_ranks = false);
+                bool several_ranks = false, std::string (*reference)() = nullptr);
 /// The same for a laboratory test, which runs on any number of ranks.
 int run_laboratory_test(const std::string& name, const std::string& about, int argc, char** argv,
                         const std::function<void(const CommandLine&)>& body);

@@ -18,7 +18,8 @@
 namespace breccia {
 namespace {
 
-constexpr const char* fewer_threads = "use fewer threads (--threads), or raise the limits (ulimit -u, ulimit -v)";
+constexpr const char* fewer_threads =
+    "use fewer threads (--threads), or raise the limits (ulimit -u, ulimit -v)";
 
 Ending no_memory() { return {"not enough memory: use fewer spheres", 3}; }
 
@@ -54,7 +55,7 @@ Ending ending_of(const std::exception_ptr& thrown) {
     return {error.what(), 2};
   } catch (const SimulationBroke& error) {
     return {error.what(), 3};
-  } catch (const FileTrouble& error) {
+  } catch (const WriteError& error) {
     return {error.what(), 4};
   } catch (const std::bad_alloc&) {
     return no_memory();

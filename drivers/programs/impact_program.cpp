@@ -47,7 +47,7 @@ void run_impact_program(const CommandLine& line) {
   if (!same) use.writes.emplace_back("case.toml");
   const std::string digest = sha256_of(line.case_file);
   const FolderLock lock = claim_run_folder(line.out, line.force ? Old::replace : Old::refuse, use);
-  if (!same) write_aside(line.out / "case.toml", c.resolved);
+  if (!same) atomic_write(line.out / "case.toml", c.resolved);
   ImpactResult result;
   try {
     run_impact(c.scene, result, interrupted);

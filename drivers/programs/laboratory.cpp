@@ -6,7 +6,11 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
+#include "core/distributed/distribute.hpp"
+#include "core/distributed/gather.hpp"
 #include "core/loading/summarise.hpp"
+#include "core/world/make_world.hpp"
 #include "core/world/stress.hpp"
 #include "drivers/programs/prepare_specimen.hpp"
 #include "io/cases/changed_keys.hpp"
@@ -135,7 +139,8 @@ void begin_frames(const RunOfSeries& run, const World& w, const LoadTest& load, 
     std::error_code ignored;
     if (!fs::exists(results, ignored)) {
       if (run.k > 0)
-        say(run.progress, fmt::format("{}: is not there; frames of the runs before are not made again", results.string()));
+        say(run.progress,
+            fmt::format("{}: is not there; frames of the runs before are not made again", results.string()));
       create_results(results, run.c.resolved);
     }
     fresh = !resumed || !has_run(results, number);
@@ -143,15 +148,15 @@ void begin_frames(const RunOfSeries& run, const World& w, const LoadTest& load, 
   if (!any(run.ranks, fresh)) return;
   const std::pair<std::string, double> attributes[] = {
       {"confinement_Pa", load.confinement}, {"alpha", w.alpha}, {"time_step_s", w.dt}};
-  begin_run(results, number, attributes, w.share, w.particles, w.bonds);
+  begin_run(results, number, attributes, w.partition, w.particles, w.bonds);
 }
 
 /// One more frame in results.h5, by all ranks, and for ParaView, by the root.
 void write_frame(const RunOfSeries& run, World& w, std::size_t frame, const CurveRow& row) {
   const int number = static_cast<int>(run.k), at = static_cast<int>(frame);
-  World& whole = bring_together(w);
+  World& whole = gather_to_root(w);
   if (run.c.stress) fill_stress_columns(w);
-  append_frame(run.folder / "results.h5", number, at, {w.time, w.step, row.axial_strain}, w.share,
+  append_frame(run.folder / "results.h5", number, at, {w.time, w.step, row.axial_strain}, w.partition,
                w.particles, w.bonds);
   if (!run.ranks.is_root()) return;
   if (run.c.stress && !run.ranks.alone()) fill_stress_columns(whole);
@@ -190,7 +195,7 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
     crack_file.emplace(run.folder / fmt::format("cracks-{}.csv", run.k));
     crack_file->add(std::span(w.cracks.cracks).first(state.cracks_told));
   }
-  if (!run.ranks.alone()) w = cut(std::move(w), run.ranks);
+  if (!run.ranks.alone()) w = distribute(std::move(w), run.ranks);
   begin_frames(run, w, load, state.stage != Stage::not_begun);
 
   LoadHooks hooks;
@@ -212,11 +217,11 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
   } catch (...) {
     try {
       if (run.ranks.is_root()) write_curve(curve, result.record.rows);
-    } catch (const FileTrouble&) {  // the first trouble is the one to report
+    } catch (const WriteError&) {  // the first trouble is the one to report
     }
     throw;
   }
-  const World& whole = bring_together(w);
+  const World& whole = gather_to_root(w);
   if (!run.ranks.is_root()) return {};
   write_curve(curve, result.record.rows);
   RunSummary summary = summarise(run.test, whole, a, load, result);
@@ -276,7 +281,8 @@ WorkDone find_work(const CommandLine& line, const Case& c, Progress& progress) {
   if (work.checkpoint) {
     refuse_changes(work.checkpoint->file, work.checkpoint->head.case_text, c);
     if (line.ranks.is_root())
-      for (const RunSummary& run : read_runs(work.checkpoint->head.finished)) check_files(line.out, run.files);
+      for (const RunSummary& run : read_runs(work.checkpoint->head.finished))
+        check_files(line.out, run.files);
     return work;
   }
   std::error_code ignored;
@@ -300,7 +306,8 @@ std::vector<std::string> written_by(const Case& c, const CommandLine& line, bool
     if (c.cracks) names.push_back(fmt::format("cracks-{}.csv", k));
     if (c.frames == 0) continue;
     names.push_back(fmt::format("frames/run-{}.pvd", k));
-    for (const char* what : {"particles", "bonds"}) names.push_back(fmt::format("frames/run-{}/{}-*.vtp", k, what));
+    for (const char* what : {"particles", "bonds"})
+      names.push_back(fmt::format("frames/run-{}/{}-*.vtp", k, what));
   }
   return names;
 }
@@ -329,7 +336,7 @@ void run_test_program(const CommandLine& line) {
     return;
   }
 
-  wait_for_all(ranks);  // until nobody reads what was there any more
+  barrier(ranks);  // until nobody reads what was there any more
   begin_results();
   const Digests inputs = ranks.is_root() ? digests_of({}, c.inputs) : Digests{};
   if (ranks.is_root()) {
@@ -337,7 +344,7 @@ void run_test_program(const CommandLine& line) {
     const Old old = found ? Old::keep : line.force || line.resume ? Old::replace : Old::refuse;
     lock = claim_run_folder(line.out, old, use, std::move(lock));
     if (!found && !is_resolved_already(line.out, c.source, c.resolved))
-      write_aside(line.out / "case.toml", c.resolved);
+      atomic_write(line.out / "case.toml", c.resolved);
     if (!found && c.frames > 0) create_results(line.out / "results.h5", c.resolved);
   }
   SeriesSummary series;
@@ -366,6 +373,7 @@ void run_test_program(const CommandLine& line) {
     fit_peaks(series);
     write_summary(line.out / "summary.json", series);
     say(progress, result_line(c, k, line.program, series.runs.back()));
+    hold_at(HoldPoint::run);
   }
   if (!ranks.is_root()) return;
   if (stopped != Stopped::interrupted) remove_checkpoints(line.out);

@@ -54,7 +54,7 @@ void run_pack_program(const CommandLine& line) {
   FolderUse use{{"specimen.csv"}, c.inputs};
   if (!same) use.writes.emplace_back("case.toml");
   const FolderLock lock = claim_run_folder(line.out, line.force ? Old::replace : Old::refuse, use);
-  if (!same) write_aside(line.out / "case.toml", c.resolved);
+  if (!same) atomic_write(line.out / "case.toml", c.resolved);
   write_specimen_csv(line.out / "specimen.csv", specimen);
   say(progress, fmt::format("written: {}", (line.out / "specimen.csv").string()));
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "core/bonding/law_of_material.hpp"
 #include "core/bonding/section_area.hpp"
 #include "core/elastic/elastic_network.hpp"
@@ -16,7 +17,8 @@ Specimen make_specimen(const Case& c, Progress& progress) {
   const SpecimenCase& s = c.specimen;
   if (s.pack) {
     say(progress,
-        fmt::format("packing {} {}", s.pack->spheres, s.space == Space::plane ? "discs" : "spheres"));
+        fmt::format("packing {} {}", s.pack->spheres, s.space == Space::two_d ? "discs" : "spheres"));
+    hold_at(HoldPoint::packing);
     return pack_spheres(s.body, *s.pack);
   }
   Specimen specimen = place_specimen(read_specimen(*s.file), s.axis, s.centre, s.space);
@@ -56,8 +58,8 @@ Features features_that_run(const Case& c, const Features& asked) {
 std::string describe(const Assembly& a) {
   return fmt::format(
       "{} {}, mean radius {:.4g} mm; {} bonds within a range of {:.3g}, {:.2f} per {}{}{}", a.particles.size,
-      a.space == Space::plane ? "discs" : "spheres", a.mean_radius * 1e3, a.bonds.size, a.range,
-      a.coordination, a.space == Space::plane ? "disc" : "sphere",
+      a.space == Space::two_d ? "discs" : "spheres", a.mean_radius * 1e3, a.bonds.size, a.range,
+      a.coordination, a.space == Space::two_d ? "disc" : "sphere",
       a.short_bonds ? fmt::format(", {} of nested spheres", a.short_bonds) : "",
       a.dropped_bonds ? fmt::format("; {} pairs in range have no common face", a.dropped_bonds) : "");
 }
@@ -79,7 +81,7 @@ AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, 
 
 std::string describe_elasticity(const Case& c, const ReadySpecimen& ready, int threads) {
   Assembly a = ready.assembly;
-  if (a.grip != Grip::ends) return "";
+  if (a.grip != Support::ends) return "";
   const Material& m = c.materials.front();
   const double reach = 0.4 * a.length();  // the levels of the thesis' table 5.1, away from the ends
   const double covered = area_through_levels(a.particles, a.bonds,
@@ -100,32 +102,32 @@ ReadySpecimen make_ready(const Case& c, const std::string& test, const Features&
                          Progress& progress) {
   const Features features = features_that_run(c, asked);
   BondingRule rule{c.bonds.range,         c.bonds.coordination, c.bonds.area,
-                   c.bonds.strength_area, c.specimen.space,     Grip::ends};
+                   c.bonds.strength_area, c.specimen.space,     Support::ends};
   const Specimen specimen = make_specimen(c, progress);
   Body body = c.specimen.body;
-  if (c.specimen.space == Space::plane) {  // one metre thick
+  if (c.specimen.space == Space::two_d) {  // one metre thick
     if (body.shape == Shape::box)
       body.depth = 1.0;
     else
       body.height = 1.0;
   }
   ReadySpecimen ready;
-  const auto bonded = [&](const Specimen& s, const Body& b, Grip grip) {
+  const auto bonded = [&](const Specimen& s, const Body& b, Support grip) {
     rule.grip = grip;
     return assemble(s, b, rule, features, threads, asked.rotation);
   };
   if (test != "bts") {
-    Assembly ends = bonded(specimen, body, Grip::ends);
+    Assembly ends = bonded(specimen, body, Support::ends);
     say(progress, describe(ends));
     ready.factor = area_factor(c, ends, c.bonds.alpha_rule, c.test.rough_platens, threads, progress);
-    ready.assembly = test == "shear" ? bonded(specimen, body, Grip::halves) : std::move(ends);
+    ready.assembly = test == "shear" ? bonded(specimen, body, Support::halves) : std::move(ends);
     return ready;
   }
   // a disc is probed along its axis, between its flat faces; a two-dimensional one has none
   Body standing = body;
   standing.on_edge = true;
-  if (c.specimen.space == Space::plane) {
-    ready.assembly = bonded(specimen, standing, Grip::strips);
+  if (c.specimen.space == Space::two_d) {
+    ready.assembly = bonded(specimen, standing, Support::strips);
     say(progress, describe(ready.assembly));
     AlphaRule alpha = c.bonds.alpha_rule;
     if (alpha == AlphaRule::automatic) {
@@ -135,9 +137,9 @@ ReadySpecimen make_ready(const Case& c, const std::string& test, const Features&
     ready.factor = area_factor(c, ready.assembly, alpha, false, threads, progress);
     return ready;
   }
-  ready.assembly = bonded(stand_disc(specimen, c.specimen.axis, c.test.load_axis), standing, Grip::strips);
+  ready.assembly = bonded(stand_disc(specimen, c.specimen.axis, c.test.load_axis), standing, Support::strips);
   say(progress, describe(ready.assembly));
-  const Assembly lying = bonded(specimen, body, Grip::ends);
+  const Assembly lying = bonded(specimen, body, Support::ends);
   ready.factor = area_factor(c, lying, c.bonds.alpha_rule, false, threads, progress);
   return ready;
 }

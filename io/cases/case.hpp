@@ -17,7 +17,7 @@ struct SpecimenCase {
   std::optional<std::filesystem::path> file;  ///< the case's folder in front
   std::string sha256;                         ///< of the file, 64 hex digits
   std::optional<PackRequest> pack;
-  Space space = Space::solid;
+  Space space = Space::three_d;
   Body body;                   ///< a disc in the plane: its height is its diameter
   char axis = 'z';             ///< of the cylinder or disc in the file; in the plane the direction of loading
   std::optional<Vec3> centre;  ///< m; overrides the middle of the box around the spheres
@@ -57,7 +57,7 @@ struct FeatureCase {  ///< what the scene may leave out
 };
 
 struct Case {
-  std::filesystem::path source;                ///< the case file
+  std::filesystem::path source;               ///< the case file
   std::vector<std::filesystem::path> inputs;  ///< all that was read: the case, its preset, its specimen
   SpecimenCase specimen;
   std::string preset;               ///< name of the material preset; empty: none

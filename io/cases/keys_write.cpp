@@ -34,7 +34,7 @@ void write_at(std::string& text, const ConfinementLayer& at, const Layer& base) 
 std::string describe_values(const Key& key) {
   switch (key.kind) {
     case Kind::boolean:
-      return key.later == "true" ? "false" : "true, false";
+      return key.reserved == "true" ? "false" : "true, false";
     case Kind::word:
       return quote_list(split_words(key.words));
     case Kind::word_or_number:
@@ -72,23 +72,6 @@ std::string write_case(const Layer& keys, const Layer& base, const std::vector<C
     write_line(text, key, given->second.reading);
   }
   end_material();
-  return text;
-}
-
-std::string describe_keys(const std::string& test) {
-  std::string text =
-      fmt::format("keys of a case for breccia-{} (a quantity: \"3.8 GPa\", or a bare number in SI)\n", test);
-  std::string_view table;
-  for (const Key& key : all_keys()) {
-    if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) continue;
-    if (table_of(key) != table) table = table_of(key), text += fmt::format("\n[{}]\n", table);
-    const std::string_view standard = standard_of(key, test);
-    text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), describe_values(key),
-                        standard.empty() ? "-" : standard, key.meaning);
-    if (key.name == "material.preset" && accepts(*find_key("test.confinement"), test))
-      text += fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
-                          "a table [[material.at]]: keys of the material for one confinement");
-  }
   return text;
 }
 

@@ -72,7 +72,8 @@ void FolderLock::write(const std::vector<std::string>& names) const {
     if (written > 0) at += static_cast<std::size_t>(written);
   }
   if (::ftruncate(opened_, static_cast<off_t>(text.size())) != 0) fail_to_write(list_, errno);
-  if (::fsync(opened_) != 0 && errno != EINVAL && errno != EROFS && errno != EINTR) fail_to_write(list_, errno);
+  if (::fsync(opened_) != 0 && errno != EINVAL && errno != EROFS && errno != EINTR)
+    fail_to_write(list_, errno);
 }
 
 FolderLock lock_folder(const fs::path& folder) {
@@ -83,8 +84,9 @@ FolderLock lock_folder(const fs::path& folder) {
   struct stat found {};
   if (::fstat(opened, &found) != 0 || !S_ISREG(found.st_mode)) fail_to_write(list, "it is no file");
   if (::flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    fail<BadInput>("{}: another run is writing there; wait until it has ended, or choose another folder with --out",
-                   folder.string());
+    fail<BadInput>(
+        "{}: another run is writing there; wait until it has ended, or choose another folder with --out",
+        folder.string());
   return lock;
 }
 

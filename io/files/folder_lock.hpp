@@ -22,7 +22,7 @@ public:
 
   /// What breccia wrote in this folder: names seen from it, a * standing for digits.
   std::vector<std::string> names() const;
-  /// Replaces the list. @throws FileTrouble
+  /// Replaces the list. @throws WriteError
   void write(const std::vector<std::string>& names) const;
 
 private:
@@ -31,7 +31,7 @@ private:
 };
 
 /// Locks a folder that is there. On a file system without locks it goes on without one.
-/// @throws BadInput when another run holds the lock; FileTrouble when the list cannot be opened or made
+/// @throws BadInput when another run holds the lock; WriteError when the list cannot be opened or made
 FolderLock lock_folder(const std::filesystem::path& folder);
 
 /// The same where breccia has written before; elsewhere no lock, and nothing is made.

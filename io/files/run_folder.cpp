@@ -19,8 +19,10 @@ bool is_there(const fs::path& path) {
 }
 
 bool matches(const std::string& name, const std::string& pattern, std::size_t star) {
-  const std::string_view head = std::string_view(pattern).substr(0, star), tail = std::string_view(pattern).substr(star + 1);
-  if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail)) return false;
+  const std::string_view head = std::string_view(pattern).substr(0, star),
+                         tail = std::string_view(pattern).substr(star + 1);
+  if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail))
+    return false;
   return name.find_first_not_of("0123456789", head.size()) >= name.size() - tail.size();
 }
 
@@ -34,7 +36,8 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::string& listed
     std::error_code trouble;
     for (fs::directory_iterator at(parent, trouble), end; !trouble && at != end; at.increment(trouble)) {
       const std::string name = at->path().filename().string();
-      if (matches(name, pattern, star) || matches(name, pattern + ".part", star)) files.push_back(parent / name);
+      if (matches(name, pattern, star) || matches(name, pattern + ".part", star))
+        files.push_back(parent / name);
     }
     std::sort(files.begin(), files.end());
     return files;
@@ -60,11 +63,13 @@ void check_in_the_way(const fs::path& folder, const std::vector<std::string>& ou
   for (const std::string& name : use.writes)
     for (const fs::path& file : files_of(folder, name)) {
       if (is_one_of(file, use.reads))
-        fail<BadInput>("{}: this run reads it, and would write its results over it; choose another folder with --out",
-                       file.string());
+        fail<BadInput>(
+            "{}: this run reads it, and would write its results over it; choose another folder with --out",
+            file.string());
       if (!known.contains(file.string()))
-        fail<BadInput>("{}: is there, and breccia did not write it; move it away, or choose another folder with --out",
-                       file.string());
+        fail<BadInput>(
+            "{}: is there, and breccia did not write it; move it away, or choose another folder with --out",
+            file.string());
     }
 }
 
@@ -87,7 +92,7 @@ bool is_resolved_already(const fs::path& folder, const fs::path& case_file, cons
 FolderLock claim_run_folder(const fs::path& folder, Old old, const FolderUse& use, FolderLock held) {
   std::error_code trouble;
   if (fs::exists(folder, trouble) && !fs::is_directory(folder, trouble))
-    fail<FileTrouble>("{}: is not a folder; choose another with --out", folder.string());
+    fail<WriteError>("{}: is not a folder; choose another with --out", folder.string());
   if (!held) held = lock_folder_if_used(folder);
   std::vector<std::string> ours = listed_names(folder, held, use);
   check_in_the_way(folder, ours, use);
@@ -110,7 +115,7 @@ FolderLock claim_run_folder(const fs::path& folder, Old old, const FolderUse& us
         fail<BadInput>("{}: holds results already; --force replaces them, --out names another folder",
                        folder.string());
       fs::remove(file, trouble);
-      if (trouble) fail<FileTrouble>("{}: cannot be removed: {}", file.string(), trouble.message());
+      if (trouble) fail<WriteError>("{}: cannot be removed: {}", file.string(), trouble.message());
     }
     if (kept && std::find(listed_now.begin(), listed_now.end(), listed) == listed_now.end())
       listed_now.push_back(listed);

@@ -24,8 +24,9 @@ enum class Old { refuse, replace, keep };
 /// @param held  the lock, where the caller has it already
 /// @return      to be held as long as anything is written
 /// @throws BadInput: another run is at work there; results and Old::refuse; a file in the way that is the user's, or
-///         that the run itself reads; FileTrouble when the folder cannot be made or emptied
-FolderLock claim_run_folder(const std::filesystem::path& folder, Old old, const FolderUse& use, FolderLock held = {});
+///         that the run itself reads; WriteError when the folder cannot be made or emptied
+FolderLock claim_run_folder(const std::filesystem::path& folder, Old old, const FolderUse& use,
+                            FolderLock held = {});
 
 /// True where a resolved case is run again out of its own folder of results: DIR/case.toml is the case, and holds what
 /// would be written to it.

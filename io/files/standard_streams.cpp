@@ -20,8 +20,8 @@ void open_standard_streams() {
 void print_out(std::string_view text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
-  fail<FileTrouble>("cannot write to the standard output: {}; send it to a file, or use --quiet",
-                    std::generic_category().message(errno));
+  fail<WriteError>("cannot write to the standard output: {}; send it to a file, or use --quiet",
+                   std::generic_category().message(errno));
 }
 
 }  // namespace breccia

@@ -9,7 +9,7 @@ namespace breccia {
 void open_standard_streams();
 
 /// Writes to the standard output and hands it to the system.
-/// @throws FileTrouble: nobody reads it any more, its disk is full, ...
+/// @throws WriteError: nobody reads it any more, its disk is full, ...
 void print_out(std::string_view text);
 
 }  // namespace breccia

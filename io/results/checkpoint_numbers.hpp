@@ -69,33 +69,16 @@ struct Flat<Crack> {
   using Number = double;
   static constexpr std::size_t components = 13;
   static void put(const Crack& c, double* to) {
-    const double all[components] = {c.time,
-                                    c.axial_strain,
-                                    c.position.x,
-                                    c.position.y,
-                                    c.position.z,
-                                    c.normal.x,
-                                    c.normal.y,
-                                    c.normal.z,
-                                    static_cast<double>(c.mode),
-                                    c.normal_force,
-                                    c.shear_force,
-                                    c.area,
+    const double all[components] = {c.time,         c.axial_strain, c.position.x,
+                                    c.position.y,   c.position.z,   c.normal.x,
+                                    c.normal.y,     c.normal.z,     static_cast<double>(c.mode),
+                                    c.normal_force, c.shear_force,  c.area,
                                     c.energy};
     std::memcpy(to, all, sizeof(all));
   }
   static void take(Crack& c, const double* f) {
-    c = {f[0],
-         f[1],
-         0,
-         0,
-         {f[2], f[3], f[4]},
-         {f[5], f[6], f[7]},
-         static_cast<BondState>(f[8]),
-         f[9],
-         f[10],
-         f[11],
-         f[12]};
+    c = {f[0], f[1],  0,     0,    {f[2], f[3], f[4]}, {f[5], f[6], f[7]}, static_cast<BondState>(f[8]),
+         f[9], f[10], f[11], f[12]};
   }
 };
 

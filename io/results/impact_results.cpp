@@ -36,7 +36,7 @@ void write_impact_curve(const std::filesystem::path& file, std::span<const Impac
       fmt::format_to(out, "{}{}", &field == fields.begin() ? "" : ",", row.*field.second);
     text += '\n';
   }
-  write_aside(file, text);
+  atomic_write(file, text);
 }
 
 std::vector<std::string> impact_warnings(const ImpactResult& result) {
@@ -76,13 +76,9 @@ void write_impact_summary(const std::filesystem::path& file, const ImpactScene& 
            {"particles", std::move(particles)}};
   Json files = Json::object();
   for (const auto& [name, digest] : inputs) files[name] = digest;
-  const Json all{{"test", "impact"},
-                 {"version", BRECCIA_VERSION},
-                 {"threads", scene.threads},
-                 {"ranks", 1},
-                 {"inputs", std::move(files)},
-                 {"runs", Json::array({std::move(run)})}};
-  write_aside(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  const Json all{{"test", "impact"}, {"version", BRECCIA_VERSION}, {"threads", scene.threads},
+                 {"ranks", 1},       {"inputs", std::move(files)}, {"runs", Json::array({std::move(run)})}};
+  atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 std::string format_impact_table(const ImpactResult& result) {

@@ -171,8 +171,9 @@ std::vector<RunSummary> read_runs(const std::string& text) {
   try {
     for (const Json& json : Json::parse(text)) runs.push_back(run_of(json));
   } catch (const Json::exception& other) {
-    fail<BadInput>("the summary of the runs before is that of another version of breccia ({}); run anew with --force",
-                   other.what());
+    fail<BadInput>(
+        "the summary of the runs before is that of another version of breccia ({}); run anew with --force",
+        other.what());
   }
   return runs;
 }
@@ -206,7 +207,7 @@ void write_summary(const std::filesystem::path& file, const SeriesSummary& serie
   if (series.mohr_coulomb) all["mohr_coulomb"] = of(*series.mohr_coulomb);
   all["runs"] = std::move(runs);
   // replace: a text that is not UTF-8 (a file's name) must not lose the results of hours
-  write_aside(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace breccia

@@ -69,7 +69,7 @@ void check_coincident(const Specimen& specimen) {
 /// How far a centre lies outside the body; negative inside.
 double outside(const Vec3& p, const Body& body, Space space) {
   const double height = std::abs(p.z) - body.height / 2;
-  if (space == Space::plane)
+  if (space == Space::two_d)
     return body.shape == Shape::box ? std::max(height, std::abs(p.x) - body.diameter / 2)
                                     : std::hypot(p.x, p.z) - body.diameter / 2;
   const double across = body.shape == Shape::box
@@ -80,7 +80,7 @@ double outside(const Vec3& p, const Body& body, Space space) {
 
 std::string describe(const Body& body, Space space) {
   const auto length = [](double value) { return format_quantity(value, dimension::length); };
-  if (space == Space::plane)
+  if (space == Space::two_d)
     return body.shape == Shape::box
                ? fmt::format("rectangle {} x {}", length(body.diameter), length(body.height))
                : fmt::format("disc D {}", length(body.diameter));
@@ -132,7 +132,7 @@ void put_in_plane(Specimen& specimen, char axis, char flat) {
 
 Specimen place_specimen(Specimen specimen, char axis, std::optional<Vec3> centre, Space space) {
   const Vec3 middle = centre ? *centre : middle_of_box(specimen.spheres);
-  if (space == Space::plane && !specimen.spheres.empty()) {
+  if (space == Space::two_d && !specimen.spheres.empty()) {
     const char flat = flat_coordinate(specimen, axis);
     const char width = static_cast<char>('x' + 'y' + 'z' - axis - flat);
     for (SpecimenSphere& sphere : specimen.spheres) {

@@ -25,7 +25,7 @@ Specimen read_specimen(const std::filesystem::path& file);
 /// third one x.
 /// @throws BadInput in the plane: centres do not lie in one plane along the axis, to 1e-9 of the specimen's
 /// size
-Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {}, Space space = Space::solid);
+Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {}, Space space = Space::three_d);
 
 /// Stands a disc that is in place (axis along z) on its edge: its axis becomes y, the diameter to press z. A
 /// rotation, never a mirror.
@@ -36,10 +36,10 @@ Specimen stand_disc(Specimen, char axis, std::optional<char> load_axis);
 /// Checks a specimen that is in place.
 /// @throws BadInput: no sphere, two spheres with one centre, a centre outside the body by more than 2 % of
 /// the diameter
-void check_specimen(const Specimen&, const Body&, Space space = Space::solid);
+void check_specimen(const Specimen&, const Body&, Space space = Space::three_d);
 
 /// Writes spheres as .csv such that they read back bit for bit; aside first, then renamed.
-/// @throws FileTrouble
+/// @throws WriteError
 void write_specimen_csv(const std::filesystem::path& file, const Specimen&);
 
 }  // namespace breccia

@@ -19,7 +19,7 @@ std::string said(int error) {
   return "cannot be read: " + std::generic_category().message(error);
 }
 
-std::string why_not(const struct stat& found) {
+std::string reason(const struct stat& found) {
   if (S_ISREG(found.st_mode)) return {};
   if (S_ISDIR(found.st_mode)) return "a folder, not a file";
   if (S_ISFIFO(found.st_mode)) return "a pipe, not a file; write what comes out of it to a file first";
@@ -30,7 +30,7 @@ std::string why_not(const struct stat& found) {
 
 std::string why_no_file(const std::filesystem::path& path) {
   struct stat found {};
-  return ::stat(path.c_str(), &found) != 0 ? said(errno) : why_not(found);
+  return ::stat(path.c_str(), &found) != 0 ? said(errno) : reason(found);
 }
 
 InputFile open_input(const std::filesystem::path& file) {
@@ -39,7 +39,7 @@ InputFile open_input(const std::filesystem::path& file) {
   const int opened = why.empty() ? ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC) : -1;
   if (why.empty()) {
     struct stat found {};
-    why = opened < 0 || ::fstat(opened, &found) != 0 ? said(errno) : why_not(found);
+    why = opened < 0 || ::fstat(opened, &found) != 0 ? said(errno) : reason(found);
   }
   InputFile stream(why.empty() ? ::fdopen(opened, "rb") : nullptr, &std::fclose);
   if (!stream) {
@@ -63,10 +63,12 @@ std::string read_bytes(const std::filesystem::path& file) {
   return text;
 }
 
-std::vector<std::string> names_in(const std::filesystem::path& folder, const std::filesystem::path& extension) {
+std::vector<std::string> names_in(const std::filesystem::path& folder,
+                                  const std::filesystem::path& extension) {
   std::vector<std::string> names;
   std::error_code trouble;  // the iterator's own ++ would throw
-  for (std::filesystem::directory_iterator at(folder, trouble), end; !trouble && at != end; at.increment(trouble))
+  for (std::filesystem::directory_iterator at(folder, trouble), end; !trouble && at != end;
+       at.increment(trouble))
     if (at->path().extension() == extension) names.push_back(at->path().filename().string());
   std::sort(names.begin(), names.end());
   return names;

@@ -22,6 +22,7 @@ InputFile open_input(const std::filesystem::path& file);
 std::string read_bytes(const std::filesystem::path& file);
 
 /// Names of what lies in a folder and ends so (".toml"), sorted; none where the folder cannot be read.
-std::vector<std::string> names_in(const std::filesystem::path& folder, const std::filesystem::path& extension);
+std::vector<std::string> names_in(const std::filesystem::path& folder,
+                                  const std::filesystem::path& extension);
 
 }  // namespace breccia

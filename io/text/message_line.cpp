@@ -74,7 +74,8 @@ std::string printable(std::string_view text) {
 std::string message_line(std::string_view text) {
   std::string whole = printable(text), line;
   std::replace_if(
-      whole.begin(), whole.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+      whole.begin(), whole.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; },
+      ' ');
   for (std::size_t at = 0; at < whole.size();) {
     const std::size_t end = std::min(whole.find(' ', at), whole.size());
     line += short_word(std::string_view(whole).substr(at, end - at));

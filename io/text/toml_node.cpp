@@ -67,7 +67,8 @@ TomlNode read_toml(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, ignored)) fail<BadInput>("{}: no such file{}", name, nearest_file(file));
   const std::string text = read_bytes(file);
   if (const auto line = line_nested_too_deep(text))
-    fail<BadInput>("{}:{}: nested more than {} deep; the keys of a case are table.key", name, *line, deepest_toml);
+    fail<BadInput>("{}:{}: nested more than {} deep; the keys of a case are table.key", name, *line,
+                   deepest_toml);
   try {
     const toml::table table = toml::parse(text, name);
     return Converter{name, true}.convert(table, 0);

@@ -18,7 +18,8 @@ TEST_CASE("What is no UTF-8 is shown as numbers") {
   CHECK(printable("plain \u00e4 \u20ac \U0001f600") == "plain \u00e4 \u20ac \U0001f600");
   CHECK(printable("bad\xff") == "bad\\xff");
   CHECK(printable("cut \xe2\x82") == "cut \\xe2\\x82");
-  CHECK(printable("\xc0\xaf \xed\xa0\x80 \xf4\x90\x80\x80") == "\\xc0\\xaf \\xed\\xa0\\x80 \\xf4\\x90\\x80\\x80");
+  CHECK(printable("\xc0\xaf \xed\xa0\x80 \xf4\x90\x80\x80") ==
+        "\\xc0\\xaf \\xed\\xa0\\x80 \\xf4\\x90\\x80\\x80");
   CHECK(is_utf8("\u20ac"));
   CHECK_FALSE(is_utf8("\x80"));
   CHECK_FALSE(is_utf8("\xf8\x88\x80\x80\x80"));

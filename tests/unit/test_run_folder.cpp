@@ -29,15 +29,17 @@ TEST_CASE("The list of a folder knows what breccia wrote, and nothing else") {
     const FolderLock lock = claim_run_folder(folder, Old::refuse, use);
     CHECK(lock.names() == use.writes);
   }
-  for (const char* name : {"case.toml", "case.toml.part", "frames/run-0/bonds-7.vtp", "frames/run-0/bonds-08.vtp.part",
-                           "frames/run-0/bonds-x.vtp", "frames/run-0/bonds-.vtp", "frames/run-0/bonds-7.vtp.bak", "notes.txt"})
+  for (const char* name :
+       {"case.toml", "case.toml.part", "frames/run-0/bonds-7.vtp", "frames/run-0/bonds-08.vtp.part",
+        "frames/run-0/bonds-x.vtp", "frames/run-0/bonds-.vtp", "frames/run-0/bonds-7.vtp.bak", "notes.txt"})
     write(folder / name, "text");
   CHECK_THROWS_AS(claim_run_folder(folder, Old::refuse, use), BadInput);
   CHECK(fs::exists(folder / "case.toml"));
   CHECK(claim_run_folder(folder, Old::keep, {{"curve-0.csv"}, {}}).names() ==
         std::vector<std::string>{"curve-0.csv", "case.toml", "frames/run-0/bonds-*.vtp"});
   CHECK(fs::exists(folder / "case.toml"));
-  CHECK(claim_run_folder(folder, Old::replace, {{"summary.json"}, {}}).names() == std::vector<std::string>{"summary.json"});
+  CHECK(claim_run_folder(folder, Old::replace, {{"summary.json"}, {}}).names() ==
+        std::vector<std::string>{"summary.json"});
   CHECK_FALSE(fs::exists(folder / "case.toml"));
   CHECK_FALSE(fs::exists(folder / "case.toml.part"));
   CHECK(names_in(folder / "frames/run-0", ".vtp") == std::vector<std::string>{"bonds-.vtp", "bonds-x.vtp"});
@@ -81,7 +83,8 @@ TEST_CASE("What a run reads is neither removed nor overwritten") {
   write(folder / "specimen.csv", "spheres");
   write(folder / "case.toml", "case");
   fs::create_hard_link(folder / "specimen.csv", scratch.path / "same.csv");
-  const FolderLock lock = claim_run_folder(folder, Old::replace, {{"case.toml"}, {scratch.path / "same.csv"}});
+  const FolderLock lock =
+      claim_run_folder(folder, Old::replace, {{"case.toml"}, {scratch.path / "same.csv"}});
   CHECK(fs::exists(folder / "specimen.csv"));
   CHECK_FALSE(fs::exists(folder / "case.toml"));
   CHECK(lock.names() == std::vector<std::string>{"case.toml", "specimen.csv"});  // breccia's still
@@ -90,6 +93,7 @@ TEST_CASE("What a run reads is neither removed nor overwritten") {
 TEST_CASE("A digest is that of sha256sum") {
   const ScratchFolder scratch;
   write(scratch.path / "abc", "abc");
-  CHECK(sha256_of(scratch.path / "abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  CHECK(sha256_of(scratch.path / "abc") ==
+        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   CHECK_THROWS_AS(sha256_of(scratch.path), BadInput);
 }

@@ -30,8 +30,10 @@ TEST_CASE("Dotted keys and brackets are counted up to the limit") {
 
 TEST_CASE("What stands in strings and comments is no nesting") {
   const std::string dots = repeated(".", 100), brackets = repeated("[", 100);
-  for (const std::string& text : {"# " + dots + brackets, "x = \"" + dots + "\\\"" + brackets + "\"", "x = '" + dots + "\\'",
-                                  "x = \"\"\"\n" + dots + "\"\"\n\"" + brackets + "\"\"\"\"\"", "x = '''\n" + dots + "''" + brackets + "'''"}) {
+  for (const std::string& text :
+       {"# " + dots + brackets, "x = \"" + dots + "\\\"" + brackets + "\"", "x = '" + dots + "\\'",
+        "x = \"\"\"\n" + dots + "\"\"\n\"" + brackets + "\"\"\"\"\"",
+        "x = '''\n" + dots + "''" + brackets + "'''"}) {
     CAPTURE(text);
     CHECK_FALSE(line_nested_too_deep(text));
     CHECK(line_nested_too_deep(text + "\n" + brackets).has_value());  // the string has its end there

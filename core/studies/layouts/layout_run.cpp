@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/threads.hpp"
+#include "core/world/loop_views.hpp"
 
 namespace breccia {
 namespace {
@@ -87,7 +88,7 @@ void LayoutRun::pass(double dt) {
   if (in_columns())
     collect_columns();
   else
-    collect(plan, world_.particles, world_.share.own(), threads_);
+    collect(plan, world_.particles, world_.partition.owned(), threads_);
 }
 
 /// As `collect` does for records.

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <mutex>
 
+#include "core/base/hold.hpp"
 #include "core/base/threads.hpp"
 #include "drivers/programs/command_line.hpp"
 #include "drivers/studies/stability/options.hpp"
@@ -35,8 +36,8 @@ bool run_study(const StabilityOptions& options) {
   const std::vector<PartOfScene> parts = parts_of(chosen_scenes(options));
   StabilityResults results{describe_machine(), "concrete", options.length, {}};
   const Material material = shipped_material(results.material, "breccia-stability");
-  const FolderLock folder =
-      claim_run_folder(options.out, options.force ? Old::replace : Old::refuse, {{"stability.csv", "stability.json"}, {}});
+  const FolderLock folder = claim_run_folder(options.out, options.force ? Old::replace : Old::refuse,
+                                             {{"stability.csv", "stability.json"}, {}});
   Progress progress = make_progress(options.quiet);
   say(progress, fmt::format("stiff and extreme scenes of {}, law dempack, at fractions of the largest stable "
                             "step; {} steps of a network at 0.99",
@@ -54,6 +55,7 @@ bool run_study(const StabilityOptions& options) {
         results.parts[k] = std::move(runs);
         write_stability_csv(options.out / "stability.csv", results);
         write_stability_json(options.out / "stability.json", results);
+        hold_at(HoldPoint::measurement);
       },
       tbb::simple_partitioner{});
   say(progress, fmt::format("\n{}", format_stability_table(results)));

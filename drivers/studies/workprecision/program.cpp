@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "drivers/programs/command_line.hpp"
 #include "drivers/studies/workprecision/journal.hpp"
 #include "drivers/studies/workprecision/options.hpp"
@@ -124,6 +125,7 @@ private:
     if (!outcome) return;
     journal_.add(key_of(trial), *outcome);
     collect();
+    hold_at(HoldPoint::measurement);
     say(progress_, fmt::format("{} of {}, {}", results_.runs.size(), trials_.size(),
                                describe({trial, *outcome}, results_.analysis)));
   }
@@ -168,7 +170,11 @@ void run_study(const WorkPrecisionOptions& options) {
   if (!options.dry_run) {
     FolderUse use{{"runs.jsonl", "workprecision.csv", "workprecision.json"}, c.inputs};
     if (!same) use.writes.emplace_back("case.toml");
-    lock = claim_run_folder(options.out, options.resume ? Old::keep : options.force ? Old::replace : Old::refuse, use);
+    lock = claim_run_folder(options.out,
+                            options.resume  ? Old::keep
+                            : options.force ? Old::replace
+                                            : Old::refuse,
+                            use);
   }
   const StudyScene scene = make_study_scene(c, test, trials, options.threads, progress);
   if (options.dry_run) {
@@ -184,7 +190,7 @@ void run_study(const WorkPrecisionOptions& options) {
                    {"cpu", results.machine.cpu},
                    {"instruction set", results.machine.instruction_set}},
                   options.resume);
-  if (!same) write_aside(options.out / "case.toml", c.resolved);
+  if (!same) atomic_write(options.out / "case.toml", c.resolved);
   Study(options, scene, trials, results, journal, progress).run();
   say(progress,
       format_reference(results) + format_recipes(results) + format_sizes(results) + format_cheapest(results));

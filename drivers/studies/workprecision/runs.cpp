@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/bonding/law_of_material.hpp"
 #include "core/loading/strength.hpp"
+#include "core/world/make_world.hpp"
 #include "drivers/programs/laboratory.hpp"
 #include "io/text/toml_node.hpp"
 #include "kernels/loops/bond_pass.hpp"
