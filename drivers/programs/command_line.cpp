@@ -84,7 +84,7 @@ std::optional<int> read_command_line(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, err;
     const int code = app.exit(error, out, err) == 0 ? 0 : 2;
-    if (!speaks) return code;
+    if (!speaks) return 0;  // what the job ends with is the root's, which has to come to its line first
     if (code != 0)
       return end(app.get_name(), fmt::format("{} (see {} --help)", error.what(), app.get_name()), code);
     try {
@@ -104,7 +104,7 @@ int run_body(const std::string& program, int threads, const std::function<void()
                ? end(program,
                      fmt::format("{} ranks asked for; this program runs on one (use --threads)", ranks.count),
                      2)
-               : 2;
+               : 0;  // see above
   ranks = mpi_init();
   try {
     try_threads(threads);

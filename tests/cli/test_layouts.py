@@ -142,6 +142,8 @@ class Folders(ProgramTest):
         self.assertEqual(tree(self.out), first)
         for name in ("layouts.png", "notes.txt"):
             (self.out / name).write_text("")
+        with (self.out / ".breccia-files").open("a") as file:
+            file.write("layouts.png\n")  # as scripts/plot does
         self.assertEqual(run("layouts", *self.ONE, "--out", self.out, "--force").returncode, 0)
         self.assertEqual(sorted(tree(self.out)), ["layouts.csv", "layouts.json", "notes.txt"])
 

@@ -212,6 +212,8 @@ class Folders(ProgramTest):
         self.assertEqual(tree(self.out), first)
         for name in ("scaling.png", "notes.txt"):
             (self.out / name).write_text("")
+        with (self.out / ".breccia-files").open("a") as file:
+            file.write("scaling.png\n")  # as scripts/plot does
         self.assertEqual(run("scaling", *tiny, "--force").returncode, 0)
         self.assertEqual(sorted(tree(self.out)), ["notes.txt", "scaling.csv", "scaling.json"])
 

@@ -15,7 +15,7 @@ RUN = ("confinement_Pa peak_stress_Pa peak_deviator_Pa peak_reached strain_at_pe
        "poisson_ratio crack_initiation_stress_Pa crack_damage_stress_Pa tensile_strength_Pa alpha particles bonds coordination "
        "dropped_bonds short_bonds broken_tension broken_shear steps time_step_s lowest_time_step_s "
        "critical_time_step_s step_estimates mass_factor scaled_particles run_time_s phases_s bond_updates_per_s "
-       "bond_pass_per_s energy_error rate_error step_error sampling_error kinetic_ratio platen_mismatch state_hash stopped_by warnings").split()
+       "bond_pass_per_s energy_error rate_error step_error sampling_error kinetic_ratio platen_mismatch state_hash stopped_by warnings files").split()
 
 
 class Ucs(ProgramTest):
@@ -54,7 +54,7 @@ class Ucs(ProgramTest):
 
     def test_summary(self):
         summary = self.read_summary()
-        self.assertEqual(list(summary), ["test", "version", "threads", "ranks", "runs"])
+        self.assertEqual(list(summary), ["test", "version", "threads", "ranks", "inputs", "runs"])
         self.assertEqual([summary[key] for key in ("test", "threads", "ranks")], ["ucs", 1, 1])
         (result,) = summary["runs"]
         self.assertEqual(list(result), RUN)

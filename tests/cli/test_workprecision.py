@@ -203,9 +203,10 @@ class Options(ProgramTest):
     def test_resume_with_another_case(self):
         tiny = (*TINY, "--out", self.out)
         self.out.mkdir()
+        (self.out / ".breccia-files").write_text("runs.jsonl\n")
         (self.out / "runs.jsonl").write_text(json.dumps({"study": "workprecision", "version": "0.1.0", "case": "0123456789abcdef"}) + "\n")
         before = tree(self.out)
-        self.check_one_line(run("workprecision", self.case, *tiny, "--resume"), 2, "runs.jsonl", "another", "--out")
+        self.check_one_line(run("workprecision", self.case, *tiny, "--resume"), 2, "runs.jsonl", "another case", "--out")
         self.assertEqual(tree(self.out), before)
         self.check_one_line(run("workprecision", self.case, *tiny), 2, self.out, "--force")
         self.assertEqual(tree(self.out), before)
