@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/loading/instruments.hpp"
+#include "core/world/stress.hpp"
 
 namespace breccia {
 namespace {
@@ -42,7 +43,7 @@ CurveRow state_row(World& w) {
   } else {
     row.stored_J = stored_energy(w);
   }
-  row.confining_stress_Pa = w.confinement.pressure;
+  row.confining_stress_Pa = w.confinement.acting;
   return row;
 }
 
@@ -155,6 +156,7 @@ bool press_hydrostatically(Run& run) {
     if (checkpoint_if_due(run)) return false;
     stress = 0.0;
   }
+  if (run.test.loading != Loading::shear) run.result.held_pressure = held_pressure(w);
   // the lid of a shear box stays under its pressure
   w.platens.servo = run.test.loading == Loading::shear;
   return true;
@@ -276,6 +278,7 @@ void press_evenly(Run& run) {
     tell(run, 1, done, row);
     frame_if_due(run, done, row, done >= 1.0);
     if (done >= 1.0) {
+      run.result.held_pressure = held_pressure(w);
       run.result.stopped = Stopped::pressure;
       return;
     }

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/bonding/law_of_material.hpp"
+#include "core/bonding/pieces.hpp"
 #include "core/bonding/section_area.hpp"
 #include "core/elastic/elastic_network.hpp"
 #include "io/cases/keys_material.hpp"
@@ -12,16 +13,27 @@
 
 namespace breccia {
 
-Specimen make_specimen(const Case& c, Progress& progress) {
+namespace {
+
+/// Reads a specimen, and puts it in place by the spheres that hang together.
+Specimen read_and_place(const Case& c, int threads, std::vector<std::string>& warnings) {
   const SpecimenCase& s = c.specimen;
-  if (s.pack) {
-    say(progress,
-        fmt::format("packing {} {}", s.pack->spheres, s.space == Space::plane ? "discs" : "spheres"));
-    return pack_spheres(s.body, *s.pack);
-  }
-  Specimen specimen = place_specimen(read_specimen(*s.file), s.axis, s.centre, s.space);
-  check_specimen(specimen, s.body, s.space);
-  return specimen;
+  const Specimen as_read = read_specimen(*s.file);
+  check_sizes(as_read);
+  const std::vector<char> of_body = main_body(as_read, std::max(c.bonds.range, BondingRule{}.range), threads);
+  Specimen placed = place_specimen(as_read, s.axis, s.centre, s.space, of_body);
+  check_specimen(placed, s.body, s.space);
+  for (std::string& warning : check_body(c, placed, of_body, as_read)) warnings.push_back(std::move(warning));
+  return placed;
+}
+
+}  // namespace
+
+Specimen make_specimen(const Case& c, int threads, Progress& progress, std::vector<std::string>& warnings) {
+  const SpecimenCase& s = c.specimen;
+  if (!s.pack) return read_and_place(c, threads, warnings);
+  say(progress, fmt::format("packing {} {}", s.pack->spheres, s.space == Space::plane ? "discs" : "spheres"));
+  return pack_spheres(s.body, *s.pack);
 }
 
 Features asked_features(const Case& c) {

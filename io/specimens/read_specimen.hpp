@@ -25,7 +25,19 @@ Specimen read_specimen(const std::filesystem::path& file);
 /// third one x.
 /// @throws BadInput in the plane: centres do not lie in one plane along the axis, to 1e-9 of the specimen's
 /// size
-Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {}, Space space = Space::solid);
+/// @param of_body  per sphere, 0 where it does not belong to the body whose box is meant; empty: all do
+Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {}, Space space = Space::solid,
+                        const std::vector<char>& of_body = {});
+
+/// The middle of the box around the spheres that belong to the body, as they lie in the file, m.
+Vec3 middle_of(const Specimen&, const std::vector<char>& of_body);
+
+/// A way in a specimen that is in place, as it runs in the file that it was read from.
+Vec3 way_in_file(const Specimen& as_read, const Vec3& way, char axis, Space space);
+
+/// Checks the radii, before anything is made of them.
+/// @throws BadInput: a sphere so small or large that no step is right for it and the others
+void check_sizes(const Specimen&);
 
 /// Stands a disc that is in place (axis along z) on its edge: its axis becomes y, the diameter to press z. A
 /// rotation, never a mirror.
