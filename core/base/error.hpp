@@ -16,7 +16,7 @@ struct SimulationBroke : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 /// A file that cannot be written: exit code 4.
-struct FileTrouble : std::runtime_error {
+struct WriteError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

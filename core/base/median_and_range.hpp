@@ -5,12 +5,12 @@
 
 namespace breccia {
 
-struct Spread {
+struct MedianAndRange {
   double median = 0, least = 0, most = 0;
 };
 
 /// @param values  at least one
-inline Spread spread_of(std::vector<double> values) {
+inline MedianAndRange median_and_range_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   return {0.5 * (values[(n - 1) / 2] + values[n / 2]), values.front(), values.back()};

@@ -12,7 +12,7 @@ enum class AlphaRule { automatic, affine, porosity, number };
 enum class Elasticity { paper, matched };
 
 /// plane: two dimensions, discs of unit thickness in the x-z plane (y = 0); areas are lengths times 1 m.
-enum class Space { solid, plane };
+enum class Space { three_d, two_d };
 
 /// Where the area of a bond comes from: docs/model.md, "Area".
 enum class AreaRule { minimum, harmonic, polyhedron, voronoi };
@@ -22,7 +22,7 @@ enum class ScatterKind { atomic, private_sums, gather };
 
 /// Which particles the loading holds. ends: layers at both ends. strips: two strips along the mantle of a
 /// disc on edge. halves: the mantle's two halves and the end layers with them, a direct shear box.
-enum class Grip { ends, strips, halves };
+enum class Support { ends, strips, halves };
 
 /// How the dashpots of bonds and contacts enter the step: docs/model.md, "Time step and mass
 /// scaling". explicit_: c_n as it is; capped and summed hold back those that are too strong for the

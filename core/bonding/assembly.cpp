@@ -20,7 +20,7 @@ enum Part { free_part = 0, lower_part = 1, upper_part = 2 };
 
 /// Which body of the loading a particle belongs to. (B60) (B61) (B62)
 struct Holder {
-  Grip grip;
+  Support grip;
   double edge;        ///< m; ends: height where a layer begins; strips: radius where a strip begins
   double half_width;  ///< m; strips: of the strip; halves: height of the shear zone
   const Body* body;
@@ -30,13 +30,13 @@ struct Holder {
     const Vec3& x = s.centre;
     const Part side = x.z < 0.0 ? lower_part : upper_part;
     switch (grip) {
-      case Grip::ends:
+      case Support::ends:
         return std::abs(x.z) > edge ? side : free_part;
-      case Grip::strips:
+      case Support::strips:
         return std::abs(x.x) < half_width && std::hypot(x.x, x.z) + s.radius > edge ? side : free_part;
-      case Grip::halves:
+      case Support::halves:
         return std::abs(x.z) > edge || (std::abs(x.z) > half_width &&
-                                        at_mantle(*body, Space::solid, x, s.radius, mean_radius))
+                                        at_mantle(*body, Space::three_d, x, s.radius, mean_radius))
                    ? side
                    : free_part;
     }
@@ -44,11 +44,11 @@ struct Holder {
   }
 };
 
-Holder holder_of(const Body& body, Grip grip, double mean_radius) {
+Holder holder_of(const Body& body, Support grip, double mean_radius) {
   // (B61): strips of half-width 0.15 R, 2.5 mean radii deep: of the spheres that reach that near
   // the mantle, as the skin is found. With centres that near only, the strips crush their way in at 2.4 MPa
   // where the disc would split at 2.8 (cement, 15,070 spheres)
-  if (grip == Grip::strips)
+  if (grip == Support::strips)
     return {grip, 0.5 * body.diameter - 2.5 * mean_radius, 0.075 * body.diameter, &body, mean_radius};
   // a shear box leaves a band of five mean radii free
   return {grip, 0.5 * body.height - 1.5 * mean_radius, 2.5 * mean_radius, &body, mean_radius};
@@ -160,7 +160,7 @@ double Assembly::section() const {
 }
 
 double Assembly::mantle() const {
-  if (space == Space::plane) return 2.0 * body.height * body.depth;  // the two sides of a rectangle
+  if (space == Space::two_d) return 2.0 * body.height * body.depth;  // the two sides of a rectangle
   return body.height * (body.shape == Shape::box ? 2.0 * (body.diameter + body.depth) : pi * body.diameter);
 }
 
@@ -168,12 +168,12 @@ double Assembly::length() const { return body.on_edge ? body.diameter : body.hei
 
 double Assembly::load_section() const {
   // the tension in the middle of a disc under two opposite loads is 2P/(pi D L)
-  return grip == Grip::strips ? 0.5 * pi * body.diameter * body.height : section();  // (B75)
+  return grip == Support::strips ? 0.5 * pi * body.diameter * body.height : section();  // (B75)
 }
 
 bool at_mantle(const Body& body, Space space, const Vec3& centre, double radius, double mean_radius) {
   const double reach = radius + 0.3 * mean_radius;
-  if (space == Space::plane && body.shape == Shape::box)
+  if (space == Space::two_d && body.shape == Shape::box)
     return std::abs(centre.x) + reach > 0.5 * body.diameter;
   if (body.shape == Shape::box)
     return std::abs(centre.x) + reach > 0.5 * body.diameter || std::abs(centre.y) + reach > 0.5 * body.depth;
@@ -189,7 +189,7 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
   a.rotation = rotation;
   const std::size_t n = specimen.spheres.size();
   for (const auto& s : specimen.spheres) a.mean_radius += s.radius / static_cast<double>(n);
-  a.layer = (rule.grip == Grip::strips ? 2.5 : 1.5) * a.mean_radius;
+  a.layer = (rule.grip == Support::strips ? 2.5 : 1.5) * a.mean_radius;
   const Holder part_of = holder_of(body, rule.grip, a.mean_radius);
 
   ParticleTable& p = a.particles;
@@ -211,8 +211,8 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
     fail<BadInput>(
         "{}: no sphere between or within the {} ({} mean radii) of a body {} m long; "
         "check specimen.height, specimen.diameter and specimen.axis",
-        specimen.source, rule.grip == Grip::strips ? "strips" : "end layers",
-        rule.grip == Grip::strips ? 2.5 : 1.5, a.length());
+        specimen.source, rule.grip == Support::strips ? "strips" : "end layers",
+        rule.grip == Support::strips ? 2.5 : 1.5, a.length());
 
   a.range = rule.coordination ? range_for_coordination(p, group, *rule.coordination, threads) : rule.range;
   std::vector<Link> links = links_within(p, group, a.range, threads);

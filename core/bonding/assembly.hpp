@@ -17,14 +17,14 @@ struct BondingRule {
   std::optional<double> coordination;  ///< instead: beta such that particles have this many bonds on average
   AreaRule area = AreaRule::minimum;
   std::optional<AreaRule> strength_area;  ///< of the strengths, where it is another one
-  Space space = Space::solid;
-  Grip grip = Grip::ends;
+  Space space = Space::three_d;
+  Support grip = Support::ends;
 };
 
 struct Assembly {
   Body body;
-  Space space = Space::solid;
-  Grip grip = Grip::ends;
+  Space space = Space::three_d;
+  Support grip = Support::ends;
   bool rotation = true;  ///< particles turn
   ParticleTable particles;
   BondTable bonds;            ///< areas with alpha = 1; stiffness and damping not yet set

@@ -26,7 +26,7 @@ void check(const ParticleTable& p, const BondTable& b, std::span<const Row> skin
 }
 
 /// Section of a cylinder of radius r, or of a strip.
-double section(double r, Space space) { return space == Space::solid ? pi * r * r : 2.0 * r; }
+double section(double r, Space space) { return space == Space::three_d ? pi * r * r : 2.0 * r; }
 
 double equivalent(double r_i, double r_j) { return 2.0 * r_i * r_j / (r_i + r_j); }  // (S4.31)
 
@@ -61,13 +61,13 @@ double polygon_ratio(double n) {
 }
 
 double shape_ratio(double n, Space space) {
-  return space == Space::solid ? polyhedron_ratio(n) : polygon_ratio(n);
+  return space == Space::three_d ? polyhedron_ratio(n) : polygon_ratio(n);
 }
 
 /// (B9): neighbours of a particle inside. Solid: 11, the mean of dense packings (thesis, section
 /// 4.6.2). Plane: 6; cells that tile a plane have six sides on average, by Euler's formula,
 /// whatever the packing.
-double inner_neighbours(Space space) { return space == Space::solid ? 11.0 : 6.0; }
+double inner_neighbours(Space space) { return space == Space::three_d ? 11.0 : 6.0; }
 
 std::vector<double> polyhedron_areas(const ParticleTable& p, const BondTable& b, std::span<const Row> skin,
                                      Space space) {
@@ -81,7 +81,7 @@ std::vector<double> polyhedron_areas(const ParticleTable& p, const BondTable& b,
   for (std::size_t row = 0; row < p.size; ++row) {
     if (count[row] == 0.0) continue;
     const double r = p.radius[row];
-    const double surface = space == Space::solid ? 4.0 * pi * r * r : 2.0 * pi * r;
+    const double surface = space == Space::three_d ? 4.0 * pi * r * r : 2.0 * pi * r;
     // a particle at the mantle is surrounded in part: each neighbour gets what it would get inside
     const double ratio =
         at_skin[row] ? shape_ratio(inner, space) * count[row] / inner : shape_ratio(count[row], space);

@@ -16,6 +16,6 @@ namespace breccia {
 /// @param axis  of the body: 'z', or 'y' for a cylinder or disc that lies
 /// @throws BadInput: no skin, a row that is not there, a radius not above zero, a body without volume
 std::vector<double> mantle_areas(const ParticleTable& particles, std::span<const Row> skin, const Body& body,
-                                 Space space = Space::solid, int threads = 1, char axis = 'z');
+                                 Space space = Space::three_d, int threads = 1, char axis = 'z');
 
 }  // namespace breccia

@@ -12,7 +12,7 @@
 namespace breccia {
 namespace {
 
-bool are_bonded(const ContactSearch& search, Row a, Row b) {
+bool are_bonded(const NeighbourList& search, Row a, Row b) {
   return std::binary_search(search.partners.begin() + search.first_partner[a],
                             search.partners.begin() + search.first_partner[a + 1], b);
 }
@@ -39,8 +39,8 @@ struct EvenStretch {
 
 }  // namespace
 
-ContactSearch make_contact_search(const Assembly& a, bool enabled, double skin) {
-  ContactSearch s;
+NeighbourList make_neighbour_list(const Assembly& a, bool enabled, double skin) {
+  NeighbourList s;
   s.enabled = enabled;
   s.skin = skin;
   const auto& b = a.bonds;
@@ -69,19 +69,19 @@ ContactSearch make_contact_search(const Assembly& a, bool enabled, double skin) 
   return s;
 }
 
-bool search_is_due(ContactSearch& s, const ParticleTable& p, const Share& share, std::uint64_t step,
+bool rebuild_is_due(NeighbourList& s, const ParticleTable& p, const Partition& partition, std::uint64_t step,
                    double dt, int threads) {
   if (!s.enabled || step < s.next_check) return false;
   s.next_check = step + static_cast<std::uint64_t>(s.check_every);
 
   std::vector<EvenStretch> sums;  // along the axis: least squares of u_z over z
-  const EvenStretch even = sum_particles(share, threads, sums, [&](std::size_t row) {
+  const EvenStretch even = sum_particles(partition, threads, sums, [&](std::size_t row) {
     const double z = s.position[row].z;
     return EvenStretch{z * (p.position[row].z - z), z * z};
   });
   const double stretch = even.square > 0.0 ? even.top / even.square : 0.0;
   std::vector<Moved> blocks;
-  const Moved most = sum_particles(share, threads, blocks, [&](std::size_t row) {
+  const Moved most = sum_particles(partition, threads, blocks, [&](std::size_t row) {
     Vec3 u = p.position[row] - s.position[row];
     u.z -= stretch * s.position[row].z;
     return Moved{dot(u, u), dot(p.velocity[row], p.velocity[row])};
@@ -97,7 +97,7 @@ bool search_is_due(ContactSearch& s, const ParticleTable& p, const Share& share,
   return due;
 }
 
-void renew_contacts(ContactSearch& s, ContactTable& contacts, const ParticleTable& p,
+void renew_contacts(NeighbourList& s, ContactTable& contacts, const ParticleTable& p,
                     const ContactMaterial& material, const Features& features, bool ledger, int threads) {
   const bool first_list = !s.awake;
   s.awake = true;

@@ -10,7 +10,7 @@
 
 namespace breccia {
 
-struct ContactSearch {
+struct NeighbourList {
   bool enabled = true;           ///< off: the scene leaves out new contacts
   bool awake = false;            ///< a list of candidates exists
   double skin = 0;               ///< m, candidates are apart by less than this
@@ -26,11 +26,11 @@ struct ContactSearch {
 };
 
 /// @param skin  m
-ContactSearch make_contact_search(const Assembly& assembly, bool enabled, double skin);
+NeighbourList make_neighbour_list(const Assembly& assembly, bool enabled, double skin);
 
 /// True when surfaces without a bond may have come within reach since the list was made.
 /// Every rank comes to the same answer.
-bool search_is_due(ContactSearch& search, const ParticleTable& particles, const Share& share,
+bool rebuild_is_due(NeighbourList& search, const ParticleTable& particles, const Partition& partition,
                    std::uint64_t step, double dt, int threads);
 
 /// See the column arm_offset.
@@ -42,13 +42,13 @@ inline double contact_arm_offset(double radius_lo, double radius_hi) {
 struct ContactMaterial {
   double young = 0;  ///< Pa
   double alpha = 0;  ///< area factor, as of the bonds
-  Space space = Space::solid;
+  Space space = Space::three_d;
 };
 
 /// Makes the list of candidates anew, their dashpots not yet set; pairs that were in contact keep their
 /// history.
 /// @param ledger  with the columns that an energy ledger needs
-void renew_contacts(ContactSearch& search, ContactTable& contacts, const ParticleTable& particles,
+void renew_contacts(NeighbourList& search, ContactTable& contacts, const ParticleTable& particles,
                     const ContactMaterial& material, const Features& features, bool ledger, int threads);
 
 }  // namespace breccia

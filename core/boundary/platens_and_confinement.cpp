@@ -20,7 +20,7 @@ struct LayerForces {
   }
 };
 
-std::array<Vec3, 2> forces_on_layers(const ParticleTable& p, const Share& share, std::size_t first_top) {
+std::array<Vec3, 2> forces_on_layers(const ParticleTable& p, const Partition& partition, std::size_t first_top) {
   std::vector<LayerForces> blocks;
   const auto held = [&](std::size_t row) { return std::max(row, p.free); };
   const auto force_on = [&](std::size_t row) {
@@ -28,7 +28,7 @@ std::array<Vec3, 2> forces_on_layers(const ParticleTable& p, const Share& share,
     f.force[row >= first_top] = p.force[row];
     return f;
   };
-  return sum_blocks(share, 1, blocks, held, each<LayerForces>(force_on)).force;
+  return sum_blocks(partition, 1, blocks, held, each<LayerForces>(force_on)).force;
 }
 
 }  // namespace
@@ -48,9 +48,9 @@ Platens make_platens(const Assembly& a, const ParticleTable& particles, bool rou
   return p;
 }
 
-void drive_platens(Platens& platens, const ParticleTable& particles, const Share& share,
+void drive_platens(Platens& platens, const ParticleTable& particles, const Partition& partition,
                    std::size_t first_top, double dt) {
-  platens.force = forces_on_layers(particles, share, first_top);
+  platens.force = forces_on_layers(particles, partition, first_top);
   for (const std::size_t k : {0u, 1u}) {
     Vec3& velocity = platens.velocity[k];
     if (platens.servo) {
@@ -69,7 +69,7 @@ void drive_platens(Platens& platens, const ParticleTable& particles, const Share
 Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid) {
   Confinement c;
   c.rigid = rigid;
-  c.plane = a.space == Space::plane;
+  c.plane = a.space == Space::two_d;
   c.rows = a.skin;
   c.surface = a.mantle();
   c.force.resize(c.rows.size());
@@ -102,7 +102,7 @@ double lateral_cover(const Assembly& a) {
   double sum = 0.0;
   for (const Row row : a.skin) {
     const double r = a.particles.radius[row];
-    sum += a.space == Space::plane ? 2.0 * r * a.body.depth : std::numbers::pi * r * r;
+    sum += a.space == Space::two_d ? 2.0 * r * a.body.depth : std::numbers::pi * r * r;
   }
   return sum / a.mantle();
 }
@@ -111,7 +111,7 @@ bool is_one_sphere_wide(const Assembly& a) {
   const auto& x = a.particles.reference_position;
   const double width = 1e-6 * a.body.diameter;
   return std::all_of(a.skin.begin(), a.skin.end(), [&](Row row) {
-    return std::abs(x[row].x) < width && (a.space == Space::plane || std::abs(x[row].y) < width);
+    return std::abs(x[row].x) < width && (a.space == Space::two_d || std::abs(x[row].y) < width);
   });
 }
 
@@ -129,9 +129,9 @@ struct SideSums {
   }
 };
 
-void press_sides(Confinement& c, ParticleTable& particles, const Share& share) {
+void press_sides(Confinement& c, ParticleTable& particles, const Partition& partition) {
   std::vector<SideSums> blocks;
-  const SideSums s = sum_listed(share, c.rows, 1, blocks, [&](std::size_t k) {
+  const SideSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     const double side = x.x < 0.0 ? 1.0 : -1.0, push = c.pressure * c.weight[k];
     c.force[k] = {side * push, 0.0, 0.0};
@@ -140,7 +140,7 @@ void press_sides(Confinement& c, ParticleTable& particles, const Share& share) {
   const double det = s.n * s.z2 - s.z1 * s.z1;
   const double a = (s.net * s.z2 - s.tilt * s.z1) / det, b = (s.n * s.tilt - s.z1 * s.net) / det;
   c.acting = (s.inward - a * s.side - b * s.side_z) / c.surface;
-  for_own_entries(share, c.rows, [&](std::size_t k) {
+  for_owned_entries(partition, c.rows, [&](std::size_t k) {
     c.force[k].x -= a + b * particles.position[c.rows[k]].z;
     particles.force[c.rows[k]] += c.force[k];
   });
@@ -161,15 +161,15 @@ struct SkinSums {
 
 }  // namespace
 
-void press_skin(Confinement& c, ParticleTable& particles, const Share& share) {
+void apply_confinement(Confinement& c, ParticleTable& particles, const Partition& partition) {
   if (c.rigid) return;
   c.acting = 0.0;
   if (c.pressure == 0.0) return;
-  if (c.plane) return press_sides(c, particles, share);
+  if (c.plane) return press_sides(c, particles, partition);
   // (B72): radial forces leave a net force and moments about x and y: the smallest horizontal
   // correction a + b z + c (-y, x) that removes them and makes no moment about z
   std::vector<SkinSums> blocks;
-  const SkinSums s = sum_listed(share, c.rows, 1, blocks, [&](std::size_t k) {
+  const SkinSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     const double radial = x.x * x.x + x.y * x.y;
     const double push = radial > 0.0 ? c.pressure * c.weight[k] : 0.0;
@@ -190,17 +190,17 @@ void press_skin(Confinement& c, ParticleTable& particles, const Share& share) {
   const Eigen::Vector<double, 5> left{s.net_x, s.net_y, s.tilt_x, s.tilt_y, 0.0};
   const Eigen::Vector<double, 5> by = gram.ldlt().solve(left);
   c.acting = (s.inward + by[0] * s.out_x + by[1] * s.out_y + by[2] * s.out_xz + by[3] * s.out_yz) / c.surface;
-  for_own_entries(share, c.rows, [&](std::size_t k) {
+  for_owned_entries(partition, c.rows, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     c.force[k] -= Vec3{by[0] + by[2] * x.z - by[4] * x.y, by[1] + by[3] * x.z + by[4] * x.x, 0.0};
     particles.force[c.rows[k]] += c.force[k];
   });
 }
 
-void hold_skin(Confinement& c, ParticleTable& particles, const Share& share) {
+void restrain_laterally(Confinement& c, ParticleTable& particles, const Partition& partition) {
   if (!c.rigid) return;
   std::vector<double> blocks;
-  const double outward = sum_listed(share, c.rows, 1, blocks, [&](std::size_t k) {
+  const double outward = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     Vec3& force = particles.force[c.rows[k]];
     const double away = std::hypot(x.x, x.y);

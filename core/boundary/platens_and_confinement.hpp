@@ -40,7 +40,7 @@ Platens make_platens(const Assembly& assembly, const ParticleTable& particles, b
                      double young_modulus);
 
 /// Reactions of this step, and for a servo the velocity that follows from them.
-void drive_platens(Platens& platens, const ParticleTable& particles, const Share& share,
+void drive_platens(Platens& platens, const ParticleTable& particles, const Partition& partition,
                    std::size_t first_top, double dt);
 
 /// What surrounds the mantle: a fluid under pressure, forces p w on each particle of the skin with weights w
@@ -69,10 +69,10 @@ bool is_one_sphere_wide(const Assembly& assembly);
 
 /// Adds the pressure forces; their net force and moment are removed by a least-squares correction. A sphere
 /// on the axis has no lateral direction and gets no force.
-void press_skin(Confinement& confinement, ParticleTable& particles, const Share& share);
+void apply_confinement(Confinement& confinement, ParticleTable& particles, const Partition& partition);
 
 /// A rigid wall takes up the lateral forces of the skin, all of them summed: called when they are complete.
 /// (B73)
-void hold_skin(Confinement& confinement, ParticleTable& particles, const Share& share);
+void restrain_laterally(Confinement& confinement, ParticleTable& particles, const Partition& partition);
 
 }  // namespace breccia

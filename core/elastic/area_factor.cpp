@@ -14,13 +14,13 @@ namespace {
 double fabric_of(const Assembly& a) {
   double sum = 0.0;
   for (std::size_t k = 0; k < a.bonds.size; ++k) sum += a.bonds.area[k] * a.bonds.rest_length[k];
-  return sum / ((a.space == Space::plane ? 2.0 : 3.0) * a.volume());  // (B13)
+  return sum / ((a.space == Space::two_d ? 2.0 : 3.0) * a.volume());  // (B13)
 }
 
 /// (B14): E = alpha T E (2 + 3 kappa)/(4 + kappa), discs: 2 alpha T E (1 + kappa)/(3 + kappa) in
 /// plane stress; an upper bound on the stiffness.
 double affine_alpha(double fabric, double kappa, Space space) {
-  if (space == Space::plane) return (3.0 + kappa) / (2.0 + 2.0 * kappa) / fabric;
+  if (space == Space::two_d) return (3.0 + kappa) / (2.0 + 2.0 * kappa) / fabric;
   return (4.0 + kappa) / (2.0 + 3.0 * kappa) / fabric;
 }
 
@@ -72,7 +72,7 @@ double matched_ratio(const Assembly& a, const AreaFactorRequest& r, int threads,
     return answer.poisson_ratio - r.material.poisson_ratio;
   };
   const double tolerance = 0.002 * std::max(r.material.poisson_ratio, 0.05);
-  double k0 = matched_shear_ratio(r.material.poisson_ratio, a.space == Space::plane), f0 = miss(k0);
+  double k0 = matched_shear_ratio(r.material.poisson_ratio, a.space == Space::two_d), f0 = miss(k0);
   if (std::abs(f0) < tolerance) return k0;
   double k1 = std::max(0.0, k0 + 1.2 * f0 * 5.0 / 2.0),
          f1 = miss(k1);  // d nu/d kappa of the affine form is near -5/16 .. -1/4
@@ -97,7 +97,7 @@ AreaFactor find_area_factor(const Assembly& a, const AreaFactorRequest& r, int t
   AreaFactor f;
   f.fabric = fabric_of(a);
   const bool matched = r.elasticity == Elasticity::matched;
-  f.shear_ratio = matched ? matched_shear_ratio(r.material.poisson_ratio, a.space == Space::plane)
+  f.shear_ratio = matched ? matched_shear_ratio(r.material.poisson_ratio, a.space == Space::two_d)
                           : paper_shear_ratio(r.material.poisson_ratio);
   switch (r.rule) {
     case AlphaRule::number:

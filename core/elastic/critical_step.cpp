@@ -161,7 +161,7 @@ LanczosEffort effort_of_run(std::size_t particles) {
 
 }  // namespace
 
-StepLook look_at_step(const StepScene& s, double dt, double enough) {
+StepEstimate estimate_step(const StepScene& s, double dt, double enough) {
   ScaledNetwork<float> network(s);
   const LanczosEffort effort = effort_of_run(s.particles.size);
   const LargestEigenvalue number = network.number(dt, effort);

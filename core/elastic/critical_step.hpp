@@ -30,7 +30,7 @@ struct StepScene {
 /// What is known about a step. With K and C the stiffness and damping of bonds and contacts, the scheme
 /// (damping forces from velocities half a step old) is stable if and only if lambda(dt), the largest
 /// eigenvalue of M^-1 (dt^2 K/4 + dt C(dt)/2), is at most 1/(1 + alpha).
-struct StepLook {
+struct StepEstimate {
   /// lambda (1 + alpha): 1 is the limit. From below, short by more than 2 % with a probability under 1e-3
   double number = 0;
   double critical =
@@ -40,7 +40,7 @@ struct StepLook {
 /// Looks at a step in use, and at what it should be instead. Costs some fifty applications of K.
 /// @param enough  a number up to which the step is good as it is: `critical` is not worked out and is the
 /// step
-StepLook look_at_step(const StepScene& scene, double dt, double enough = 0.0);
+StepEstimate estimate_step(const StepScene& scene, double dt, double enough = 0.0);
 
 /// No more than this times `dt`-fold can be added by the contacts given: a proven bound, by norms
 /// (B44). The norm of one contact's part at either end is summed over the contacts of each

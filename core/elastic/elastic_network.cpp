@@ -186,7 +186,7 @@ void set_free(const Assembly& a, bool rough, Eigen::VectorXd& inverse_diagonal) 
     inverse_diagonal[at + 2] = 0.0;  // prescribed: neither moved nor balanced
     if (rough) inverse_diagonal[at] = inverse_diagonal[at + 1] = 0.0;
   }
-  if (a.space == Space::plane)
+  if (a.space == Space::two_d)
     for (Eigen::Index at = 0; at < inverse_diagonal.size(); at += 6)
       inverse_diagonal[at + 1] = inverse_diagonal[at + 3] = inverse_diagonal[at + 5] = 0.0;
 }

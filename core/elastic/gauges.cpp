@@ -31,7 +31,7 @@ Gauge axial_gauge(const Assembly& a) {
 Gauge lateral_gauge(const Assembly& a) {
   Gauge g;
   const auto& x = a.particles.reference_position;
-  const bool x_only = a.body.on_edge || a.space == Space::plane;
+  const bool x_only = a.body.on_edge || a.space == Space::two_d;
   Vec3 mean;
   const auto add = [&](Row row) {
     if (std::abs(x[row].z) >= 0.2 * a.length() || is_loose(a, row)) return;
@@ -54,9 +54,9 @@ Gauge lateral_gauge(const Assembly& a) {
 }
 
 double read_gauge(const Gauge& gauge, Strided<const Vec3> position, std::span<const Vec3> reference,
-                  const Share& share, int threads) {
+                  const Partition& partition, int threads) {
   std::vector<double> blocks;
-  return sum_listed(share, gauge.rows, threads, blocks, [&](std::size_t k) {
+  return sum_listed(partition, gauge.rows, threads, blocks, [&](std::size_t k) {
     return dot(gauge.weights[k], position[gauge.rows[k]] - reference[gauge.rows[k]]);
   });
 }

@@ -24,6 +24,6 @@ Gauge lateral_gauge(const Assembly& assembly);
 
 /// Strain of the gauge between reference and present positions.
 double read_gauge(const Gauge& gauge, Strided<const Vec3> position, std::span<const Vec3> reference,
-                  const Share& share, int threads = 1);
+                  const Partition& partition, int threads = 1);
 
 }  // namespace breccia

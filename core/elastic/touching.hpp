@@ -13,7 +13,7 @@ namespace breccia {
 inline double contact_stiffness(double young_modulus, double alpha, Space space, double r, double s) {
   const double smaller = std::min(r, s);
   return young_modulus * alpha *
-         (space == Space::plane ? 2.0 * smaller : std::numbers::pi * smaller * smaller) / (r + s);
+         (space == Space::two_d ? 2.0 * smaller : std::numbers::pi * smaller * smaller) / (r + s);
 }
 
 struct Touching {

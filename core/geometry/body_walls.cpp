@@ -16,7 +16,7 @@ constexpr int sides = 360;
 bool is_round(const Body& body) { return body.shape != Shape::box; }
 
 void check(const Body& body, Space space, char axis) {
-  const bool has_depth = is_round(body) || space == Space::plane || body.depth > 0.0;
+  const bool has_depth = is_round(body) || space == Space::two_d || body.depth > 0.0;
   if (!(body.diameter > 0.0) || !(body.height > 0.0) || !has_depth)
     fail<BadInput>(
         "specimen: a body of diameter {} m, height {} m and depth {} m has no volume; check "
@@ -55,7 +55,7 @@ void add_round_mantle(BodyWalls& walls, double nominal, char axis, std::span<con
 BodyWalls walls_of(const Body& body, Space space, char axis, std::span<const Vec3> centres) {
   check(body, space, axis);
   BodyWalls walls;
-  const bool lies = axis == 'y', flat = space == Space::plane;
+  const bool lies = axis == 'y', flat = space == Space::two_d;
   // a standing cylinder cut by the x-z plane is a rectangle
   if (is_round(body) && (!flat || lies)) {
     add_round_mantle(walls, 0.5 * body.diameter, axis, centres);
@@ -72,7 +72,7 @@ BodyWalls walls_of(const Body& body, Space space, char axis, std::span<const Vec
 
 double mantle_of(const Body& body, Space space, char axis) {
   check(body, space, axis);
-  if (space == Space::plane) return is_round(body) && axis == 'y' ? pi * body.diameter : 2.0 * body.height;
+  if (space == Space::two_d) return is_round(body) && axis == 'y' ? pi * body.diameter : 2.0 * body.height;
   return body.height * (is_round(body) ? pi * body.diameter : 2.0 * (body.diameter + body.depth));
 }
 

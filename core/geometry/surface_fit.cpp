@@ -151,7 +151,7 @@ Fit judge_offset(double offset) {
 SurfaceFit fit_surface(const Body& body, Space space, std::span<const Vec3> centre,
                        std::span<const double> radius, double mean_radius) {
   const Fitter f{body, centre, radius, mean_radius};
-  const bool plane = space == Space::plane, box = body.shape == Shape::box;
+  const bool plane = space == Space::two_d, box = body.shape == Shape::box;
   const double width = body.diameter, height = body.height;
   SurfaceFit fit;
   if (plane && !box) {

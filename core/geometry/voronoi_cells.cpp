@@ -35,7 +35,7 @@ void check_particles(std::span<const Vec3> position, std::span<const double> rad
     if (!std::isfinite(x.x + x.y + x.z) || !std::isfinite(radius[k]) || !(radius[k] > 0.0))
       fail<BadInput>("specimen: particle in row {} at ({}, {}, {}) m with a radius of {} m has no cell", k,
                      x.x, x.y, x.z, radius[k]);
-    if (space == Space::plane && x.y != 0.0)
+    if (space == Space::two_d && x.y != 0.0)
       fail<BadInput>("specimen: disc in row {} lies {} m out of the plane y = 0", k, x.y);
   }
   std::vector<Vec3> sorted(position.begin(), position.end());
@@ -62,7 +62,7 @@ Scaled scaled(std::span<const Vec3> position, std::span<const double> radius,
     s.low = {std::min(s.low.x, far.x), std::min(s.low.y, far.y), std::min(s.low.z, far.z)};
     s.high = {std::max(s.high.x, far.x), std::max(s.high.y, far.y), std::max(s.high.z, far.z)};
   }
-  if (space == Space::plane) s.low.y = -half_slab, s.high.y = half_slab;
+  if (space == Space::two_d) s.low.y = -half_slab, s.high.y = half_slab;
   return s;
 }
 
@@ -115,7 +115,7 @@ VoronoiCells cells_of_rows(const Scaled& s, Space space, std::size_t first, std:
   VoronoiCells out;
   if (first == last) return out;
   // of a slab to 1 m of plane: areas are lengths times 1 m
-  const bool flat = space == Space::plane;
+  const bool flat = space == Space::two_d;
   const double to_area = flat ? s.unit / (2.0 * half_slab) : s.unit * s.unit;
   const double to_volume = to_area * s.unit;
   Container c(s);

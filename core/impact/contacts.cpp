@@ -110,7 +110,7 @@ double step_demand(const ContactSlopes& s, double dt) {
   return std::max(one(s.normal, s.damping), rolling_factor * one(s.tangential, s.tangential_damping));
 }
 
-bool search_is_due(const ImpactSearch& search, const ParticleTable& p) {
+bool rebuild_is_due(const ImpactSearch& search, const ParticleTable& p) {
   if (search.position.empty()) return true;
   const double most = 0.25 * search.skin * search.skin;
   for (std::size_t row = 0; row < p.size; ++row) {

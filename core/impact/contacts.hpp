@@ -57,7 +57,7 @@ struct ImpactSearch {
 };
 
 /// True when two particles may have come near that are not on the list.
-bool search_is_due(const ImpactSearch& search, const ParticleTable& particles);
+bool rebuild_is_due(const ImpactSearch& search, const ParticleTable& particles);
 
 /// New lists, sorted by row and partner, with the memory of the contacts that were on the old ones.
 void renew_contacts(ImpactSearch& search, const ImpactScene& scene, const ParticleTable& particles,

@@ -93,13 +93,13 @@ void note(ImpactWorld& w, const ImpactContactTable& t, std::size_t k, const Ends
 void press(ImpactWorld& w, ImpactContactTable& t, std::size_t k, const Ends& ends, double overlap,
            const Pair<double>& pair, const Vec3& rolling) {
   ParticleTable& p = w.particles;
-  ContactMemory memory{carry<true>(t.shear_force[k], pair), t.overlap[k]};
+  ContactMemory memory{rotate_with_pair<true>(t.shear_force[k], pair), t.overlap[k]};
   const Vec3 force = law_force(w, t, k, overlap, pair, memory);
   const double pressed = -dot(force, pair.normal);
   t.shear_force[k] = memory.shear;
   t.overlap[k] = overlap;
   const ContactSlopes slopes = slopes_at(w.scene.law, {t.normal[k], t.tangential[k], t.damping[k]}, overlap);
-  t.rolling[k] = carry<true>(t.rolling[k], pair);
+  t.rolling[k] = rotate_with_pair<true>(t.rolling[k], pair);
   t.rolling[k] = rolling_torque(w, t, k, ends, rolling, slopes.normal, pressed);
   const Vec3 moment = pair.distance * cross(pair.normal, force);
   const double demand = step_demand(slopes, w.dt);
@@ -207,7 +207,7 @@ void wall_forces(ImpactWorld& w) {
 }
 
 void search_if_due(ImpactWorld& w) {
-  if (search_is_due(w.search, w.particles)) renew_contacts(w.search, w.scene, w.particles, w.pairs, w.walls);
+  if (rebuild_is_due(w.search, w.particles)) renew_contacts(w.search, w.scene, w.particles, w.pairs, w.walls);
 }
 
 void weigh(ImpactWorld& w) {

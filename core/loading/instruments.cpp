@@ -4,21 +4,21 @@ namespace breccia {
 namespace {
 
 double gauge_now(const World& w, const Gauge& g) {
-  return read_gauge(g, w.particles.position, w.particles.reference_position, w.share, w.options.threads);
+  return read_gauge(g, w.particles.position, w.particles.reference_position, w.partition, w.options.threads);
 }
 
 }  // namespace
 
-Instruments make_instruments(const World& w, const Assembly& a, const LoadTest& test, const Zeros* zeros) {
+Instruments make_instruments(const World& w, const Assembly& a, const LoadTest& test, const Datum* zeros) {
   Instruments in;
   in.loading = test.loading;
   in.grip = a.grip;
   in.sign = test.loading == Loading::tension ? -1.0 : 1.0;
-  in.lateral_directions = a.space == Space::plane ? 1 : 2;
-  if (a.grip == Grip::ends) in.axial = axial_gauge(a);
-  if (a.grip != Grip::halves) in.lateral = lateral_gauge(a);
+  in.lateral_directions = a.space == Space::two_d ? 1 : 2;
+  if (a.grip == Support::ends) in.axial = axial_gauge(a);
+  if (a.grip != Support::halves) in.lateral = lateral_gauge(a);
   in.zeros = zeros ? *zeros
-                   : Zeros{gauge_now(w, in.axial), gauge_now(w, in.lateral), approach(w.platens),
+                   : Datum{gauge_now(w, in.axial), gauge_now(w, in.lateral), approach(w.platens),
                            shear_travel(w.platens)};
   in.free_length = a.length() - 2.0 * a.layer;
   return in;
@@ -46,7 +46,7 @@ Reading read(World& w, const Instruments& in) {
       in.lateral.rows.empty() ? CurveRow::untracked : in.sign * (gauge_now(w, in.lateral) - in.zeros.lateral);
   r.axial_stress = in.sign * axial_stress(w.platens);
   // across a disc strains are not uniform: no volume follows from them (B79)
-  r.volumetric_strain = in.grip == Grip::strips ? CurveRow::untracked
+  r.volumetric_strain = in.grip == Support::strips ? CurveRow::untracked
                                                 : r.axial_strain + in.lateral_directions * r.radial_strain;
   r.mismatch = mismatch(w.platens);
   return r;

@@ -9,17 +9,17 @@ namespace breccia {
 
 struct Instruments {
   Gauge axial, lateral;
-  Zeros zeros;
+  Datum zeros;
   double free_length = 0;  ///< m, between the held layers
   double sign = 1;         ///< -1: tension counts positive
   int lateral_directions = 2;
   Loading loading = Loading::compression;
-  Grip grip = Grip::ends;
+  Support grip = Support::ends;
 };
 
 /// @param zeros  where everything stood; nothing: it stands there now
 Instruments make_instruments(const World& world, const Assembly& assembly, const LoadTest& test,
-                             const Zeros* zeros = nullptr);
+                             const Datum* zeros = nullptr);
 
 /// One reading after a step. (B91)
 Reading read(World& world, const Instruments& instruments);

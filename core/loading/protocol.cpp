@@ -26,9 +26,9 @@ double crossing_time(const World& w, const Assembly& a) {
 
 /// Broken bonds and energies at the end of a row.
 CurveRow state_row(World& w) {
-  receive_motion(w);
+  finish_halo_exchange(w);
   const Lap lap(w.phases, Phase::measure);
-  settle(w);
+  sync(w);
   CurveRow row;
   const BrokenCount broken = count_broken(w);
   row.broken_tension = static_cast<double>(broken.tension);
@@ -36,7 +36,7 @@ CurveRow state_row(World& w) {
   row.kinetic_J = kinetic_energy(w);
   if (w.ledger.enabled) {
     const EnergyBalance energies = balance(w);
-    note_balance(w.ledger, energies);
+    record_balance(w.ledger, energies);
     row.stored_J = energies.stored;
     row.dissipated_J = energies.dissipated();
     row.work_J = energies.work;
@@ -74,8 +74,8 @@ void note_run_time(Run& run) {
 /// Tells a program how far a run is, a few times a second, and what has cracked.
 void tell(Run& run, int stage, double fraction, const CurveRow& row) {
   const std::size_t fresh = collect_cracks(run.w, row.axial_strain);
-  if (!run.w.share.ranks.is_root()) return;
-  const std::vector<Crack>& cracks = whole_of(run.w).cracks.cracks;
+  if (!run.w.partition.ranks.is_root()) return;
+  const std::vector<Crack>& cracks = root_replica(run.w).cracks.cracks;
   if (run.hooks.cracks && fresh > 0) {
     const Lap lap(run.w.phases, Phase::output);
     run.hooks.cracks(std::span(cracks).last(fresh));
@@ -99,16 +99,16 @@ void frame_if_due(Run& run, double done, const CurveRow& row, bool last) {
 
 /// @returns true when the run is to end here, interrupted
 bool checkpoint_if_due(Run& run) {
-  const Ranks& ranks = run.w.share.ranks;
+  const Ranks& ranks = run.w.partition.ranks;
   const bool due = run.hooks.checkpoint_due && ranks.is_root() && run.hooks.checkpoint_due();
   double asked[] = {run.interrupted() ? 1.0 : 0.0, due ? 1.0 : 0.0};
-  largest_of_all(ranks, asked);
+  all_reduce_max(ranks, asked);
   const bool interrupted = asked[0] > 0.0;
   if (run.hooks.checkpoint && (interrupted || asked[1] > 0.0)) {
     const Lap lap(run.w.phases, Phase::checkpoint);
     note_run_time(run);
-    bring_books_together(run.w);
-    bring_skin_together(run.state.guards, run.w);
+    gather_scalars(run.w);
+    gather_surface_marks(run.state.checks, run.w);
     run.hooks.checkpoint(run.w, run.state, run.result);
   }
   if (interrupted) run.result.stopped = Stopped::interrupted;
@@ -139,7 +139,7 @@ bool press_hydrostatically(Run& run) {
     stress += axial_stress(w.platens) / between_checks;
     if (k % between_checks != 0) continue;
     CurveRow row = state_row(w);
-    check(run.state.guards, w, row.kinetic_J, row.stored_J);
+    check(run.state.checks, w, row.kinetic_J, row.stored_J);
     row.time_s = w.time;
     row.axial_stress_Pa = stress;
     const double since = w.time - start;
@@ -164,14 +164,14 @@ bool press_hydrostatically(Run& run) {
 
 double deviator(const CurveRow& row) { return row.axial_stress_Pa - row.confining_stress_Pa; }
 
-bool on_envelope(const Direction& d, const CurveRow& row) {
+bool on_envelope(const LoadPath& d, const CurveRow& row) {
   return d.sense > 0.0 && row.platen_strain >= d.turned_at;
 }
 
 /// Unloads where the test asks for it, and loads again. (B69)
 void follow(Run& run, const CurveRow& row) {
   const LoadTest& test = run.test;
-  Direction& d = run.state.direction;
+  LoadPath& d = run.state.direction;
   std::size_t& next = run.state.next_unloading;
   if (d.sense > 0.0 && next < test.unload_at.size() && row.platen_strain >= test.unload_at[next]) {
     d = {-1.0, row.platen_strain, deviator(row)};
@@ -238,7 +238,7 @@ void load(Run& run) {
     const double done = travel(w, in) / (test.stop_strain * width);
     if (!add_reading(recorder, read(w, in)) && done < 1.0) continue;
     const CurveRow row = close_row(recorder, state_row(w));
-    check(run.state.guards, w, row.kinetic_J, row.stored_J);
+    check(run.state.checks, w, row.kinetic_J, row.stored_J);
     tell(run, 2, done, row);
     follow(run, row);
     const bool dropped =
@@ -274,7 +274,7 @@ void press_evenly(Run& run) {
     const double done = pressure / test.confinement;
     if (!add_reading(recorder, read(w, in)) && done < 1.0) continue;
     const CurveRow row = close_row(recorder, state_row(w));
-    check(run.state.guards, w, row.kinetic_J, row.stored_J);
+    check(run.state.checks, w, row.kinetic_J, row.stored_J);
     tell(run, 1, done, row);
     frame_if_due(run, done, row, done >= 1.0);
     if (done >= 1.0) {
@@ -291,7 +291,7 @@ void press_evenly(Run& run) {
 void run_load_test(World& w, const Assembly& assembly, const LoadTest& test, const LoadHooks& hooks,
                    LoadState& state, LoadResult& result) {
   Run run{w, assembly, test, hooks, state, result, result.run_time};
-  if (state.stage == Stage::not_begun) state.guards = make_guards(w);
+  if (state.stage == Stage::not_begun) state.checks = make_stability_checks(w);
   if (test.loading == Loading::hydrostatic)
     press_evenly(run);
   else if (test.confinement == 0.0 || state.stage == Stage::loading || press_hydrostatically(run))

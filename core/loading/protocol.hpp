@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/loading/guards.hpp"
+#include "core/loading/stability_checks.hpp"
 #include "core/loading/recorder.hpp"
 #include "core/world/world.hpp"
 
@@ -47,13 +47,13 @@ struct LoadResult {
 };
 
 /// Readings of gauges and platens when loading began.
-struct Zeros {
+struct Datum {
   double axial = 0, lateral = 0;   ///< strains
   double approach = 0, shear = 0;  ///< m
 };
 
 /// Where the platens are going: on, back while the specimen is unloaded, on again.
-struct Direction {
+struct LoadPath {
   double sense = 1;      ///< -1 while unloading
   double turned_at = 0;  ///< platen strain at which the last unloading began
   double load = 0;       ///< Pa, deviator there
@@ -69,12 +69,12 @@ struct LoadState {
   double pressure = 0;     ///< Pa, of an evenly rising one
   double speed = 0;        ///< m/s, of the platens
   double peak = 0;         ///< Pa, so far
-  Zeros zeros;
-  Direction direction;
+  Datum zeros;
+  LoadPath direction;
   std::size_t next_unloading = 0;  ///< in LoadTest::unload_at
   std::size_t frames = 0;          ///< taken
   std::size_t cracks_told = 0;
-  Guards guards;
+  StabilityChecks checks;
 };
 
 /// What a program does between steps: none of it changes the state, but for columns made for output.
@@ -92,7 +92,7 @@ struct LoadHooks {
 /// Runs a test from where it stands to its end, or until it is interrupted.
 /// @param state   of a test not begun, or with the world and the result from a checkpoint
 /// @param result  filled as the run goes, so that what there is survives an exception
-/// @throws SimulationBroke when a guard stops it, see core/loading/guards.hpp
+/// @throws SimulationBroke when a guard stops it, see core/loading/stability_checks.hpp
 void run_load_test(World& world, const Assembly& assembly, const LoadTest& test, const LoadHooks& hooks,
                    LoadState& state, LoadResult& result);
 

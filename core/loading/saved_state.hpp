@@ -25,15 +25,15 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("platens_work", w.platens.work);
   visit("confinement_pressure", w.confinement.pressure);
 
-  visit("search_awake", w.search.awake);
-  visit("search_slack", w.search.slack);
-  visit("search_next_check", w.search.next_check);
-  visit("search_rebuilds", w.search.rebuilds);
+  visit("search_awake", w.neighbour_list.awake);
+  visit("search_slack", w.neighbour_list.slack);
+  visit("search_next_check", w.neighbour_list.next_check);
+  visit("search_rebuilds", w.neighbour_list.rebuilds);
 
-  visit("step_room", w.step_watch.room);
-  visit("step_counted", w.step_watch.counted);
-  visit("step_looks", w.step_watch.looks);
-  visit("step_first_dt", w.step_watch.first_dt);
+  visit("step_room", w.step_monitor.margin);
+  visit("step_counted", w.step_monitor.counted);
+  visit("step_looks", w.step_monitor.looks);
+  visit("step_first_dt", w.step_monitor.first_dt);
 
   visit("cracks", w.cracks.cracks);
   visit("cracks_collected", w.cracks.collected);
@@ -42,8 +42,8 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   if (!w.ledger.enabled) return;
   visit("ledger_bonds", w.ledger.bonds);
   visit("ledger_contacts", w.ledger.contacts);
-  visit("ledger_own_bonds", w.ledger.own_bonds);
-  visit("ledger_own_contacts", w.ledger.own_contacts);
+  visit("ledger_own_bonds", w.ledger.owned_bonds);
+  visit("ledger_own_contacts", w.ledger.owned_contacts);
   visit("ledger_earlier_contacts", w.ledger.earlier_contacts);
   visit("ledger_platens", w.ledger.platens);
   visit("ledger_pressure", w.ledger.pressure);
@@ -70,17 +70,17 @@ void for_each_number_of_test(S& state, R& result, Visit&& visit) {
   visit("frames", state.frames);
   visit("cracks_told", state.cracks_told);
 
-  visit("guards_centre", state.guards.centre);
-  visit("guards_size", state.guards.size);
-  visit("guards_farthest", state.guards.farthest);
-  visit("guards_fastest", state.guards.fastest);
-  visit("guards_shortest", state.guards.shortest);
-  visit("guards_explained", state.guards.explained);
-  visit("guards_highest", state.guards.highest);
-  visit("guards_noise", state.guards.noise);
-  visit("guards_platen_work", state.guards.platen_work);
-  visit("guards_skin", state.guards.skin);
-  visit("guards_push", state.guards.push);
+  visit("checks_centre", state.checks.centre);
+  visit("checks_size", state.checks.size);
+  visit("checks_farthest", state.checks.farthest);
+  visit("checks_fastest", state.checks.fastest);
+  visit("checks_shortest", state.checks.shortest);
+  visit("checks_accounted", state.checks.accounted);
+  visit("checks_max_energy", state.checks.max_energy);
+  visit("checks_noise", state.checks.noise);
+  visit("checks_platen_work", state.checks.platen_work);
+  visit("checks_skin", state.checks.skin);
+  visit("checks_push", state.checks.push);
 
   visit("rows", result.record.rows);
   visit("mismatch", result.record.mismatch);

@@ -147,10 +147,10 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   run.broken_tension = broken.tension;
   run.broken_shear = broken.shear;
   run.steps = w.step;
-  run.time_step_s = w.step_watch.first_dt;
+  run.time_step_s = w.step_monitor.first_dt;
   run.lowest_time_step_s = w.dt;
   run.critical_time_step_s = w.critical_dt;
-  run.step_estimates = w.step_watch.looks;
+  run.step_estimates = w.step_monitor.looks;
   run.mass_factor = w.mass_scaling.factor;
   run.scaled_particles = w.mass_scaling.scaled;
   run.run_time_s = result.run_time;

@@ -17,7 +17,7 @@ namespace {
 using namespace packing;
 
 // Below, overlaps beyond 20 % of ri + rj cannot be avoided.
-constexpr double least_porosity_of(Space space) { return space == Space::plane ? 0.02 : 0.15; }
+constexpr double least_porosity_of(Space space) { return space == Space::two_d ? 0.02 : 0.15; }
 constexpr double most_porosity = 0.60;
 constexpr double most_genesis_pressure =
     0.12;  // overlaps to 20 %; beyond, linear springs let discs through walls

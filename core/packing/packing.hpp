@@ -26,7 +26,7 @@ struct PackRequest {
   SizeDistribution sizes;
   double porosity = 0.26;  ///< 1 - sum of sphere volumes/body volume: overlaps count twice
   std::uint64_t seed = 1;
-  Space space = Space::solid;
+  Space space = Space::three_d;
   /// sigma_0/k_n that the walls feel when the discs press each other as linear springs; 0: not asked for. In
   /// the plane only; porosity is then where inflation starts
   double genesis_pressure = 0;

@@ -15,10 +15,10 @@ namespace breccia::packing {
 /// height along z, a disc the circle of its diameter about y; both are 1 m thick.
 struct Region {
   Body body;
-  Space space = Space::solid;
-  Region(const Body& of, Space in = Space::solid) : body(of), space(in) {}
+  Space space = Space::three_d;
+  Region(const Body& of, Space in = Space::three_d) : body(of), space(in) {}
 
-  bool plane() const { return space == Space::plane; }
+  bool plane() const { return space == Space::two_d; }
   bool box() const { return body.shape == Shape::box; }
 };
 
@@ -37,7 +37,7 @@ inline double volume(const Region& region) {
 
 /// Of a sphere, or of a disc 1 m thick, m^3.
 inline double volume_of(double radius, Space space) {
-  return space == Space::plane ? std::numbers::pi * radius * radius
+  return space == Space::two_d ? std::numbers::pi * radius * radius
                                : 4 * std::numbers::pi / 3 * radius * radius * radius;
 }
 

@@ -108,7 +108,7 @@ void check_sizes(const SizeDistribution& sizes) {
 
 std::vector<double> draw_radii(const SizeDistribution& sizes, std::size_t n, Random& random, Space space) {
   using Kind = SizeDistribution::Kind;
-  const int dimensions = space == Space::plane ? 2 : 3;
+  const int dimensions = space == Space::two_d ? 2 : 3;
   const auto all = sizes.kind == Kind::sieves ? classes(sizes, n, dimensions) : std::vector<SieveClass>{};
   std::vector<double> radii(n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -14,6 +14,6 @@ void check_sizes(const SizeDistribution& sizes);
 /// small packing follows the law as closely as a large one.
 /// @param space  sieves: the mass of a sphere goes with d^3, that of a disc with d^2
 std::vector<double> draw_radii(const SizeDistribution& sizes, std::size_t n, Random& random,
-                               Space space = Space::solid);
+                               Space space = Space::three_d);
 
 }  // namespace breccia::packing

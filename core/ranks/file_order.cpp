@@ -19,7 +19,7 @@ struct Ids {
 /// part, so that parts are even to within a few of them.
 std::vector<Ids> first_ids_of_parts(const Ranks& ranks, std::span<const Ids> mine) {
   const auto parts = static_cast<std::size_t>(ranks.count);
-  const std::size_t total = std::max<std::size_t>(1, sum_of_all(ranks, mine.size()));
+  const std::size_t total = std::max<std::size_t>(1, all_reduce_sum(ranks, mine.size()));
   const std::size_t count = std::min(mine.size(), (256 * parts * mine.size() + total - 1) / total);
   std::vector<Ids> samples;
   for (std::size_t k = 0; k < count; ++k) samples.push_back(mine[k * mine.size() / count]);
@@ -60,7 +60,7 @@ FileOrder order_of(const Ranks& ranks, std::vector<Row> own, const IdsOf& ids_of
     auto operator<=>(const Arrival&) const = default;
   };
   std::vector<Ids> came(std::accumulate(order.from.begin(), order.from.end(), std::size_t{0}));
-  swap_elements(sizeof(Ids), ids.data(), order.to, came.data(), order.from);
+  all_to_all(sizeof(Ids), ids.data(), order.to, came.data(), order.from);
   std::vector<Arrival> arrivals(came.size());
   for (std::size_t k = 0; k < came.size(); ++k) arrivals[k] = {came[k], k};
   sort_on_threads(arrivals.begin(), arrivals.end());
@@ -74,25 +74,25 @@ FileOrder order_of(const Ranks& ranks, std::vector<Row> own, const IdsOf& ids_of
 }
 
 template <class Pairs>
-FileOrder order_of_pairs(const Share& share, const Pairs& pairs) {
-  return order_of(share.ranks, rows_by_ends(pairs), [&](Row row) {
+FileOrder order_of_pairs(const Partition& partition, const Pairs& pairs) {
+  return order_of(partition.ranks, rows_by_ends(pairs), [&](Row row) {
     return Ids{pairs.gid_lo[row], pairs.gid_hi[row]};
   });
 }
 
 }  // namespace
 
-FileOrder file_order(const Share& share, const ParticleTable& particles) {
-  const Rows own = share.own();
-  return order_of(share.ranks, rows_by_gid(particles, own.first, own.last), [&](Row row) {
+FileOrder file_order(const Partition& partition, const ParticleTable& particles) {
+  const Rows own = partition.owned();
+  return order_of(partition.ranks, rows_by_gid(particles, own.first, own.last), [&](Row row) {
     return Ids{particles.gid[row], 0};
   });
 }
 
-FileOrder file_order(const Share& share, const BondTable& bonds) { return order_of_pairs(share, bonds); }
+FileOrder file_order(const Partition& partition, const BondTable& bonds) { return order_of_pairs(partition, bonds); }
 
-FileOrder file_order(const Share& share, const ContactTable& contacts) {
-  return order_of_pairs(share, contacts);
+FileOrder file_order(const Partition& partition, const ContactTable& contacts) {
+  return order_of_pairs(partition, contacts);
 }
 
 }  // namespace breccia

@@ -20,10 +20,10 @@ struct FileOrder {
   std::vector<std::size_t> place;     ///< of several ranks: of what comes in, within the part
 };
 
-FileOrder file_order(const Share& share, const ParticleTable& particles);
+FileOrder file_order(const Partition& partition, const ParticleTable& particles);
 /// Of the rows [0, size), which are those that a rank owns; by both ids.
-FileOrder file_order(const Share& share, const BondTable& bonds);
-FileOrder file_order(const Share& share, const ContactTable& contacts);
+FileOrder file_order(const Partition& partition, const BondTable& bonds);
+FileOrder file_order(const Partition& partition, const ContactTable& contacts);
 
 /// The part of a column that this rank writes: value(row) of the rows that lie there. T is copied as it lies.
 template <class T, class Value>
@@ -33,7 +33,7 @@ std::vector<T> in_file_order(const FileOrder& order, const Value& value) {
   for (const Row row : order.give) given.push_back(value(row));
   if (order.ranks.alone()) return given;
   std::vector<T> came(order.place.size()), part(came.size());
-  swap_elements(sizeof(T), given.data(), order.to, came.data(), order.from);
+  all_to_all(sizeof(T), given.data(), order.to, came.data(), order.from);
   for (std::size_t k = 0; k < came.size(); ++k) part[order.place[k]] = came[k];
   return part;
 }

@@ -44,7 +44,7 @@ Ranks ranks_of_launcher() {
   return count > 1 ? Ranks{number_of("OMPI_COMM_WORLD_RANK"), count} : Ranks{};
 }
 
-Ranks join_job() {
+Ranks mpi_init() {
   Ranks ranks = ranks_of_launcher();
   if (ranks.alone()) return ranks;
   int provided = 0;
@@ -54,18 +54,18 @@ Ranks join_job() {
   return ranks;
 }
 
-void leave_job() {
+void mpi_finalize() {
   int begun = 0;
   MPI_Initialized(&begun);
   if (begun) MPI_Finalize();
 }
 
-void end_job(int code) {
+void mpi_abort(int code) {
   MPI_Abort(MPI_COMM_WORLD, code);
   std::abort();
 }
 
-void gather_all(const Ranks& ranks, const void* mine, std::span<const std::size_t> bytes, void* all) {
+void all_gather(const Ranks& ranks, const void* mine, std::span<const std::size_t> bytes, void* all) {
   const Layout layout = layout_of(bytes);
   MPI_Allgatherv(mine, layout.count[static_cast<std::size_t>(ranks.rank)], MPI_BYTE, all, layout.count.data(),
                  layout.first.data(), MPI_BYTE, MPI_COMM_WORLD);
@@ -102,7 +102,7 @@ void broadcast(const Ranks& ranks, void* data, std::size_t bytes) {
               MPI_COMM_WORLD);
 }
 
-void largest_of_all(const Ranks& ranks, std::span<double> values) {
+void all_reduce_max(const Ranks& ranks, std::span<double> values) {
   if (ranks.alone()) return;
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
                 MPI_COMM_WORLD);
@@ -110,7 +110,7 @@ void largest_of_all(const Ranks& ranks, std::span<double> values) {
 
 bool any(const Ranks& ranks, bool here) {
   double value = here ? 1.0 : 0.0;
-  largest_of_all(ranks, {&value, 1});
+  all_reduce_max(ranks, {&value, 1});
   return value > 0.0;
 }
 
@@ -121,16 +121,16 @@ std::vector<std::size_t> sizes_of_all(const Ranks& ranks, std::size_t mine) {
   return all;
 }
 
-std::size_t sum_of_all(const Ranks& ranks, std::size_t mine) {
+std::size_t all_reduce_sum(const Ranks& ranks, std::size_t mine) {
   const std::vector<std::size_t> all = sizes_of_all(ranks, mine);
   return std::accumulate(all.begin(), all.end(), std::size_t{0});
 }
 
-void wait_for_all(const Ranks& ranks) {
+void barrier(const Ranks& ranks) {
   if (!ranks.alone()) MPI_Barrier(MPI_COMM_WORLD);
 }
 
-void swap_elements(std::size_t bytes, const void* mine, std::span<const std::size_t> to, void* all,
+void all_to_all(std::size_t bytes, const void* mine, std::span<const std::size_t> to, void* all,
                    std::span<const std::size_t> from) {
   const Layout there = layout_of(to), here = layout_of(from);
   MPI_Datatype element;
@@ -147,7 +147,7 @@ std::vector<std::size_t> sizes_for_me(std::span<const std::size_t> to) {
   return from;
 }
 
-void tell_wishes(const Ranks& ranks, std::vector<Neighbour>& neighbours) {
+void exchange_send_lists(const Ranks& ranks, std::vector<Neighbour>& neighbours) {
   std::vector<int> wanted(static_cast<std::size_t>(ranks.count), 0), asked(wanted);
   for (const Neighbour& n : neighbours)
     wanted[static_cast<std::size_t>(n.rank)] = static_cast<int>(n.receive.size());

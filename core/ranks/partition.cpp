@@ -42,9 +42,9 @@ struct PairsOfRank {
 };
 
 template <class Table>
-PairsOfRank pairs_of_rank(const Share& s, const Table& t) {
+PairsOfRank pairs_of_rank(const Partition& s, const Table& t) {
   PairsOfRank pairs;
-  const Rows mine = s.own();
+  const Rows mine = s.owned();
   const auto is_mine = [&](Row row) { return row >= mine.first && row < mine.last; };
   std::vector<std::size_t> copies;
   for (std::size_t k = 0; k < t.size; ++k) {
@@ -56,7 +56,7 @@ PairsOfRank pairs_of_rank(const Share& s, const Table& t) {
   }
   pairs.owned = pairs.rows.size();
   const auto pad = [&] {
-    while (pairs.rows.size() % LoadBlock::capacity != 0) pairs.rows.push_back(PairsOfRank::none);
+    while (pairs.rows.size() % ForceBuffer::capacity != 0) pairs.rows.push_back(PairsOfRank::none);
   };
   pad();
   pairs.rows.insert(pairs.rows.end(), copies.begin(), copies.end());
@@ -66,7 +66,7 @@ PairsOfRank pairs_of_rank(const Share& s, const Table& t) {
 
 /// A table of these rows of another one.
 template <class Table>
-Table cut_table(const Table& whole, const PairsOfRank& pairs) {
+Table part_of_table(const Table& whole, const PairsOfRank& pairs) {
   Table t;
   t.size = pairs.owned;
   t.padded = pairs.rows.size();
@@ -83,8 +83,8 @@ Table cut_table(const Table& whole, const PairsOfRank& pairs) {
 }
 
 /// Padding has no stiffness, but is computed like the rest: a place, a length and an area that are numbers.
-BondTable cut_bonds(const BondTable& whole, const PairsOfRank& pairs) {
-  BondTable b = cut_table(whole, pairs);
+BondTable part_of_bonds(const BondTable& whole, const PairsOfRank& pairs) {
+  BondTable b = part_of_table(whole, pairs);
   if (whole.size == 0) return b;
   for (std::size_t k = 0; k < b.padded; ++k) {
     if (pairs.rows[k] != PairsOfRank::none) continue;
@@ -96,7 +96,7 @@ BondTable cut_bonds(const BondTable& whole, const PairsOfRank& pairs) {
 }
 
 template <class Table>
-void add_foreign_ends(const Share& s, const Table& t, std::vector<std::vector<Row>>& wanted) {
+void add_foreign_ends(const Partition& s, const Table& t, std::vector<std::vector<Row>>& wanted) {
   for (std::size_t k = 0; k < t.padded; ++k) {
     if (t.stiffness[k] == 0.0) continue;  // padding holds on to nobody
     for (const Row row : {t.row_lo[k], t.row_hi[k]})
@@ -106,20 +106,20 @@ void add_foreign_ends(const Share& s, const Table& t, std::vector<std::vector<Ro
 }
 
 /// Blocks of bonds of which one at least ends in another rank's part.
-std::vector<char> reaching_blocks(const Share& s, const BondTable& b) {
-  const Rows mine = s.own();
+std::vector<char> interface_blocks_of(const Partition& s, const BondTable& b) {
+  const Rows mine = s.owned();
   const auto is_mine = [&](Row row) { return row >= mine.first && row < mine.last; };
-  std::vector<char> reaching((b.padded + LoadBlock::capacity - 1) / LoadBlock::capacity, 0);
+  std::vector<char> reaching((b.padded + ForceBuffer::capacity - 1) / ForceBuffer::capacity, 0);
   for (std::size_t k = 0; k < b.padded; ++k)
     if (b.stiffness[k] > 0.0 && !(is_mine(b.row_lo[k]) && is_mine(b.row_hi[k])))
-      reaching[k / LoadBlock::capacity] = 1;
+      reaching[k / ForceBuffer::capacity] = 1;
   return reaching;
 }
 
 std::size_t numbers_of_row(const ParticleTable& p) { return p.spin.empty() ? 6 : 9; }
 
-void meet_neighbours(World& w) {
-  Share& s = w.share;
+void build_halo(World& w) {
+  Partition& s = w.partition;
   std::vector<std::vector<Row>> wanted(static_cast<std::size_t>(s.ranks.count));
   add_foreign_ends(s, w.bonds, wanted);
   add_foreign_ends(s, w.contacts, wanted);
@@ -131,7 +131,7 @@ void meet_neighbours(World& w) {
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     s.neighbours.push_back({rank, {}, std::move(rows), {}, {}});
   }
-  tell_wishes(s.ranks, s.neighbours);
+  exchange_send_lists(s.ranks, s.neighbours);
   for (Neighbour& n : s.neighbours) {
     n.outgoing.resize(n.send.size() * numbers_of_row(w.particles));
     n.incoming.resize(n.receive.size() * numbers_of_row(w.particles));
@@ -176,88 +176,88 @@ void gather_ledger(const Ranks& ranks, const EnergyLedger& mine, EnergyLedger* w
   const EnergyLedger before = *whole;
   *whole = mine;  // sums over particles are the same on every rank
   whole->bonds = std::move(bonds);
-  whole->own_bonds = before.own_bonds;
+  whole->owned_bonds = before.owned_bonds;
   whole->contacts.assign(before.contacts.size(), {});
-  whole->own_contacts = before.own_contacts;
+  whole->owned_contacts = before.owned_contacts;
   whole->earlier_contacts = contacts;
 }
 
 void plan_bonds(World& w) {
   w.bond_plan =
-      plan_scatter(w.options.scatter, w.options.threads, LoadBlock::capacity, w.bonds.row_lo, w.bonds.row_hi,
+      plan_scatter(w.options.scatter, w.options.threads, ForceBuffer::capacity, w.bonds.row_lo, w.bonds.row_hi,
                    w.bonds.gid_lo, w.bonds.gid_hi, w.bonds.arm_offset, w.particles.size);
 }
 
 }  // namespace
 
-Share share_alone(std::size_t rows) {
-  Share s;
+Partition serial_partition(std::size_t rows) {
+  Partition s;
   s.rows = rows;
   s.block = rows_of_block(rows);
   s.bounds = {0, rows};
   return s;
 }
 
-Share share_of_rank(const World& whole, const Ranks& ranks) {
-  Share s = share_alone(whole.particles.size);
+Partition partition_of_rank(const World& whole, const Ranks& ranks) {
+  Partition s = serial_partition(whole.particles.size);
   s.ranks = ranks;
   s.bounds = equal_parts(whole, s.block, ranks.count);
   return s;
 }
 
-World cut(World all, const Ranks& ranks) {
+World distribute(World all, const Ranks& ranks) {
   const auto whole = std::make_shared<World>(std::move(all));
   World w = *whole;
-  w.share = share_of_rank(*whole, ranks);
-  const PairsOfRank bonds = pairs_of_rank(w.share, whole->bonds);
-  w.bonds = cut_bonds(whole->bonds, bonds);
-  if (w.options.precision == Precision::mixed) w.narrow_bonds = narrow_bonds(w.bonds);
+  w.partition = partition_of_rank(*whole, ranks);
+  const PairsOfRank bonds = pairs_of_rank(w.partition, whole->bonds);
+  w.bonds = part_of_bonds(whole->bonds, bonds);
+  if (w.options.precision == Precision::mixed) w.single_bonds = single_bonds(w.bonds);
   plan_bonds(w);
-  w.share.reaching = reaching_blocks(w.share, w.bonds);
+  w.partition.interface_blocks = interface_blocks_of(w.partition, w.bonds);
   w.cracks = make_crack_record(w.cracks.enabled, w.options.threads, w.bonds.padded);
   if (w.ledger.enabled) {
     const Losses before = losses_of(whole->ledger);
-    w.ledger.bonds.assign(std::max<std::size_t>(1, w.bonds.padded / LoadBlock::capacity), {});
-    w.ledger.own_bonds = std::max<std::size_t>(1, ledger_blocks(w.bonds.size));
+    w.ledger.bonds.assign(std::max<std::size_t>(1, w.bonds.padded / ForceBuffer::capacity), {});
+    w.ledger.owned_bonds = std::max<std::size_t>(1, force_blocks(w.bonds.size));
     w.ledger.earlier_contacts = {};
     if (ranks.is_root()) {
       w.ledger.bonds.front() = before.bonds;
       w.ledger.earlier_contacts = before.contacts;
     }
   }
-  const PairsOfRank contacts = pairs_of_rank(w.share, whole->contacts);
-  w.contacts = cut_table(whole->contacts, contacts);
+  const PairsOfRank contacts = pairs_of_rank(w.partition, whole->contacts);
+  w.contacts = part_of_table(whole->contacts, contacts);
   w.ledger.contacts.clear();
-  w.ledger.own_contacts = 0;
+  w.ledger.owned_contacts = 0;
   renew_contacts(w.ledger, w.contacts);
   plan_contacts(w);
-  meet_neighbours(w);
+  build_halo(w);
   if (ranks.is_root()) {
-    whole->narrow_bonds = {};  // its table of bonds is brought up to date from those of the ranks
-    w.share.whole = whole;
+    whole->single_bonds = {};  // its table of bonds is brought up to date from those of the ranks
+    w.partition.whole = whole;
   }
   return w;
 }
 
-World& bring_together(World& w) {
-  World& all = bring_books_together(w);
-  if (w.share.ranks.alone()) return w;
-  World* whole = w.share.whole.get();
-  const Ranks& ranks = w.share.ranks;
-  gather_columns(ranks, w.particles, w.share.own(), whole ? &whole->particles : nullptr, is_state);
+World& gather_to_root(World& w) {
+  World& all = gather_scalars(w);
+  if (w.partition.ranks.alone()) return w;
+  World* whole = w.partition.whole.get();
+  const Ranks& ranks = w.partition.ranks;
+  gather_columns(ranks, w.particles, w.partition.owned(), whole ? &whole->particles : nullptr, is_state);
   gather_columns(ranks, w.bonds, {0, w.bonds.size}, whole ? &whole->bonds : nullptr, is_remembered);
   gather_columns(ranks, w.contacts, {0, w.contacts.size}, whole ? &whole->contacts : nullptr, is_remembered);
   return all;
 }
 
-World& bring_books_together(World& w) {
-  receive_motion(w);
-  settle(w);
-  if (w.share.ranks.alone()) return w;
-  World* whole = w.share.whole.get();
-  const Ranks& ranks = w.share.ranks;
+World& gather_scalars(World& w) {
+  finish_halo_exchange(w);
+  sync(w);
+  if (w.partition.ranks.alone()) return w;
+  World* whole = w.partition.whole.get();
+  const Ranks& ranks = w.partition.ranks;
   gather_ledger(ranks, w.ledger, whole ? &whole->ledger : nullptr);
-  std::vector<Vec3> push = gather_own_entries<Vec3>(w.share, w.confinement.rows, w.confinement.force);
+  std::vector<Vec3> push = gather_owned_entries<Vec3>(w.partition, w.confinement.rows, w.confinement.force);
   if (!whole) return w;
   whole->time = w.time;
   whole->step = w.step;
@@ -267,16 +267,16 @@ World& bring_books_together(World& w) {
   whole->confinement = w.confinement;
   whole->confinement.force = std::move(push);
   whole->phases = w.phases;
-  whole->search.next_check = w.search.next_check;
+  whole->neighbour_list.next_check = w.neighbour_list.next_check;
   return *whole;
 }
 
-World& whole_of(World& w) { return w.share.whole ? *w.share.whole : w; }
+World& root_replica(World& w) { return w.partition.whole ? *w.partition.whole : w; }
 
 std::size_t collect_cracks(World& w, double axial_strain) {
   CrackRecord& mine = w.cracks;
   if (!mine.enabled) return 0;
-  const Ranks& ranks = w.share.ranks;
+  const Ranks& ranks = w.partition.ranks;
   if (ranks.alone()) {
     const std::size_t fresh = mine.cracks.size() - mine.collected;
     for (Crack& crack : std::span(mine.cracks).last(fresh)) crack.axial_strain = axial_strain;
@@ -287,21 +287,21 @@ std::size_t collect_cracks(World& w, double axial_strain) {
   const std::vector<std::size_t> missed = sizes_of_all(ranks, mine.missed);
   mine.cracks.clear();
   mine.missed = 0;
-  if (!w.share.whole) return 0;
-  w.share.whole->cracks.missed += std::accumulate(missed.begin(), missed.end(), std::size_t{0});
+  if (!w.partition.whole) return 0;
+  w.partition.whole->cracks.missed += std::accumulate(missed.begin(), missed.end(), std::size_t{0});
   // ranks have bonds in rising order: of one moment they stand in the order of the whole table already
   std::stable_sort(fresh.begin(), fresh.end(),
                    [](const Crack& a, const Crack& b) { return a.time < b.time; });
   for (Crack& crack : fresh) crack.axial_strain = axial_strain;
-  std::vector<Crack>& all = w.share.whole->cracks.cracks;
+  std::vector<Crack>& all = w.partition.whole->cracks.cracks;
   all.insert(all.end(), fresh.begin(), fresh.end());
-  w.share.whole->cracks.collected = all.size();  // for one rank that takes up the run from a checkpoint
+  w.partition.whole->cracks.collected = all.size();  // for one rank that takes up the run from a checkpoint
   return fresh.size();
 }
 
-void hand_out_contacts(World& w) {
-  const Ranks& ranks = w.share.ranks;
-  World* whole = w.share.whole.get();
+void broadcast_contacts(World& w) {
+  const Ranks& ranks = w.partition.ranks;
+  World* whole = w.partition.whole.get();
   struct Step {
     double dt, critical_dt, slack;
     std::uint64_t looks, rebuilds, contacts;
@@ -309,9 +309,9 @@ void hand_out_contacts(World& w) {
   if (whole)
     step = {whole->dt,
             whole->critical_dt,
-            whole->search.slack,
-            whole->step_watch.looks,
-            whole->search.rebuilds,
+            whole->neighbour_list.slack,
+            whole->step_monitor.looks,
+            whole->neighbour_list.rebuilds,
             whole->contacts.size};
   broadcast(ranks, &step, sizeof(step));
   ContactTable listed;
@@ -327,22 +327,22 @@ void hand_out_contacts(World& w) {
   const bool lowered = step.dt != w.dt;
   w.dt = step.dt;
   w.critical_dt = step.critical_dt;
-  w.step_watch.looks = step.looks;
-  w.search.slack = step.slack;
-  w.search.rebuilds = step.rebuilds;
-  w.search.awake = true;
-  w.search.position = w.particles.position.copy();
-  const PairsOfRank contacts = pairs_of_rank(w.share, listed);
-  w.contacts = cut_table(listed, contacts);
+  w.step_monitor.looks = step.looks;
+  w.neighbour_list.slack = step.slack;
+  w.neighbour_list.rebuilds = step.rebuilds;
+  w.neighbour_list.awake = true;
+  w.neighbour_list.position = w.particles.position.copy();
+  const PairsOfRank contacts = pairs_of_rank(w.partition, listed);
+  w.contacts = part_of_table(listed, contacts);
   renew_contacts(w.ledger, w.contacts);
   if (lowered) set_dashpots(w);
   plan_contacts(w);
-  meet_neighbours(w);
-  send_motion(w);  // those met for the first time have not moved here yet
+  build_halo(w);
+  start_halo_exchange(w);  // those met for the first time have not moved here yet
 }
 
-void send_motion(World& w) {
-  std::vector<Neighbour>& neighbours = w.share.neighbours;
+void start_halo_exchange(World& w) {
+  std::vector<Neighbour>& neighbours = w.partition.neighbours;
   if (neighbours.empty()) return;
   const Lap lap(w.phases, Phase::halo);
   const ParticleTable& p = w.particles;
@@ -357,13 +357,13 @@ void send_motion(World& w) {
   begin_exchange(neighbours);
 }
 
-void receive_motion(World& w) {
-  if (w.share.neighbours.empty()) return;
+void finish_halo_exchange(World& w) {
+  if (w.partition.neighbours.empty()) return;
   const Lap lap(w.phases, Phase::halo);
   if (!finish_exchange()) return;
   ParticleTable& p = w.particles;
   const bool spins = !p.spin.empty();
-  for (Neighbour& n : w.share.neighbours) {
+  for (Neighbour& n : w.partition.neighbours) {
     const double* from = n.incoming.data();
     const auto next = [&] {
       from += 3;

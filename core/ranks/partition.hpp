@@ -21,24 +21,24 @@ struct Rows {
   std::size_t first = 0, last = 0;
 };
 
-struct Share {
+struct Partition {
   Ranks ranks;
   std::size_t rows = 0;             ///< of particles, on all ranks
   std::size_t block = 64;           ///< rows of a block
   std::vector<std::size_t> bounds;  ///< rank r owns rows [bounds[r], bounds[r + 1]); multiples of `block`
   std::vector<Neighbour> neighbours;
   /// Of several ranks, per block of bonds: true where one ends in another's part.
-  std::vector<char> reaching;
+  std::vector<char> interface_blocks;
   /// Of several ranks, on the root: what lists of contacts, pictures and messages are made from.
   std::shared_ptr<World> whole;
 
-  Rows own() const {
+  Rows owned() const {
     const auto r = static_cast<std::size_t>(ranks.rank);
     return {bounds[r], bounds[r + 1]};
   }
   /// Those of [first, last) that are owned.
-  Rows own(std::size_t first, std::size_t last) const {
-    const Rows mine = own();
+  Rows owned(std::size_t first, std::size_t last) const {
+    const Rows mine = owned();
     const std::size_t begin = std::clamp(mine.first, first, last);
     return {begin, std::clamp(mine.last, begin, last)};
   }
@@ -48,19 +48,19 @@ struct Share {
 };
 
 /// Everything belongs to the one rank that there is.
-Share share_alone(std::size_t rows);
+Partition serial_partition(std::size_t rows);
 
 /// Of one of several ranks: parts of equal work, neighbours not yet met.
-Share share_of_rank(const World& whole, const Ranks& ranks);
+Partition partition_of_rank(const World& whole, const Ranks& ranks);
 
 /// (B95): sum over the items of all ranks, block by block. T needs += and is copied as it lies.
 /// @param first_at  item with which the given row begins; rises with the row
 /// @param blocks    storage that is kept between calls
 /// @param over      over(first, last): the sum over these items, in their order
 template <class T, class First, class Over>
-T sum_blocks(const Share& s, int threads, std::vector<T>& blocks, const First& first_at, const Over& over) {
+T sum_blocks(const Partition& s, int threads, std::vector<T>& blocks, const First& first_at, const Over& over) {
   const auto block_at = [&](std::size_t row) { return (row + s.block - 1) / s.block; };
-  const Rows mine = s.own();
+  const Rows mine = s.owned();
   const std::size_t begin = block_at(mine.first), end = block_at(mine.last);
   blocks.assign(block_at(s.rows), T{});
   const int parts = end - begin < 32 ? 1 : threads;  // a few thousand rows are not worth a thread
@@ -76,7 +76,7 @@ T sum_blocks(const Share& s, int threads, std::vector<T>& blocks, const First& f
       bytes.push_back((block_at(s.bounds[r + 1]) - block_at(s.bounds[r])) * sizeof(T));
     const std::vector<T> own(blocks.begin() + static_cast<std::ptrdiff_t>(begin),
                              blocks.begin() + static_cast<std::ptrdiff_t>(end));
-    gather_all(s.ranks, own.data(), bytes, blocks.data());
+    all_gather(s.ranks, own.data(), bytes, blocks.data());
   }
   T total{};
   for (const T& sum : blocks) total += sum;
@@ -95,21 +95,21 @@ auto each(const Term& term) {
 
 /// Over all rows of particles.
 template <class T, class Term>
-T sum_particles(const Share& s, int threads, std::vector<T>& blocks, const Term& term) {
+T sum_particles(const Partition& s, int threads, std::vector<T>& blocks, const Term& term) {
   return sum_blocks(
       s, threads, blocks, [](std::size_t row) { return row; }, each<T>(term));
 }
 
 /// The same, range by range: over(first, last).
 template <class T, class Over>
-T sum_particle_ranges(const Share& s, int threads, std::vector<T>& blocks, const Over& over) {
+T sum_particle_ranges(const Partition& s, int threads, std::vector<T>& blocks, const Over& over) {
   return sum_blocks(
       s, threads, blocks, [](std::size_t row) { return row; }, over);
 }
 
 /// Over a list of rows, rising; term is called with places in the list.
 template <class T, class Term>
-T sum_listed(const Share& s, std::span<const Row> list, int threads, std::vector<T>& blocks,
+T sum_listed(const Partition& s, std::span<const Row> list, int threads, std::vector<T>& blocks,
              const Term& term) {
   const auto first_at = [&](std::size_t row) {
     return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), row) - list.begin());
@@ -119,8 +119,8 @@ T sum_listed(const Share& s, std::span<const Row> list, int threads, std::vector
 
 /// Calls work with the places in a list of rising rows that are owned.
 template <class Work>
-void for_own_entries(const Share& s, std::span<const Row> list, const Work& work) {
-  const Rows mine = s.own();
+void for_owned_entries(const Partition& s, std::span<const Row> list, const Work& work) {
+  const Rows mine = s.owned();
   const auto at = [&](std::size_t row) {
     return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), row) - list.begin());
   };
@@ -129,16 +129,16 @@ void for_own_entries(const Share& s, std::span<const Row> list, const Work& work
 
 /// The owned ones of values that stand beside such a list, at the root.
 template <class T>
-std::vector<T> gather_own_entries(const Share& s, std::span<const Row> list, std::span<const T> values) {
+std::vector<T> gather_owned_entries(const Partition& s, std::span<const Row> list, std::span<const T> values) {
   std::vector<T> mine;
-  for_own_entries(s, list, [&](std::size_t k) { mine.push_back(values[k]); });
+  for_owned_entries(s, list, [&](std::size_t k) { mine.push_back(values[k]); });
   return gather_elements(s.ranks, std::span<const T>(mine));
 }
 
 /// Over the owned bonds or contacts of a table, sorted by the lower row of their ends, range by range:
 /// over(first, last).
 template <class T, class Table, class Over>
-T sum_pair_ranges(const Share& s, const Table& t, int threads, std::vector<T>& blocks, const Over& over) {
+T sum_pair_ranges(const Partition& s, const Table& t, int threads, std::vector<T>& blocks, const Over& over) {
   const auto first_at = [&](std::size_t row) {
     std::size_t low = 0, high = t.size;
     while (low < high) {
@@ -153,35 +153,35 @@ T sum_pair_ranges(const Share& s, const Table& t, int threads, std::vector<T>& b
 
 /// The same, one by one: term(row).
 template <class T, class Table, class Term>
-T sum_pairs(const Share& s, const Table& t, int threads, std::vector<T>& blocks, const Term& term) {
+T sum_pairs(const Partition& s, const Table& t, int threads, std::vector<T>& blocks, const Term& term) {
   return sum_pair_ranges(s, t, threads, blocks, each<T>(term));
 }
 
 /// The part of a whole world that one rank runs; the root keeps the whole one beside it.
-World cut(World whole, const Ranks& ranks);
+World distribute(World whole, const Ranks& ranks);
 
 /// Brings what has changed since to the root's whole world. @returns it; elsewhere the world itself, as stale
 /// as it is
-World& bring_together(World& world);
+World& gather_to_root(World& world);
 
 /// The same of all but the tables of particles, bonds and contacts: clock, platens, mantle, ledger.
-World& bring_books_together(World& world);
+World& gather_scalars(World& world);
 
 /// The root's whole world, as it was brought together last; of one rank the world itself.
-World& whole_of(World& world);
+World& root_replica(World& world);
 
 /// Takes the cracks of all ranks since the last call into the whole record, in the order of time and of
 /// bonds, as of a row of the curve with this strain. @returns how many
 std::size_t collect_cracks(World& world, double axial_strain);
 
 /// The contacts that the root's whole world has listed anew, and the step that it has chosen, to every rank.
-void hand_out_contacts(World& world);
+void broadcast_contacts(World& world);
 
 /// Motion of the particles that other ranks' bonds and contacts hold goes out to them; it travels while the
 /// bonds that need none from elsewhere are passed over.
-void send_motion(World& world);
+void start_halo_exchange(World& world);
 /// The same of the other ranks' particles that this one holds comes in, where it is still on its way: before
 /// anyone looks at them.
-void receive_motion(World& world);
+void finish_halo_exchange(World& world);
 
 }  // namespace breccia

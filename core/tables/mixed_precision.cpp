@@ -14,16 +14,16 @@ Column<float> narrowed(const Column<double>& column) {
 
 }  // namespace
 
-NarrowBonds narrow_bonds(const BondTable& b) {
+SingleBonds single_bonds(const BondTable& b) {
   return {narrowed(b.arm_offset),    narrowed(b.area),        narrowed(b.strength_area),
           narrowed(b.stiffness),     narrowed(b.damping),     narrowed(b.shear_x),
           narrowed(b.shear_y),       narrowed(b.shear_z),     narrowed(b.plastic_stretch),
           narrowed(b.damage_normal), narrowed(b.damage_shear)};
 }
 
-void narrow_dashpots(const BondTable& b, NarrowBonds& narrow) { narrow.damping = narrowed(b.damping); }
+void dashpots_to_single(const BondTable& b, SingleBonds& narrow) { narrow.damping = narrowed(b.damping); }
 
-void widen_history(const NarrowBonds& narrow, std::size_t first, std::size_t last, BondTable& b) {
+void history_to_double(const SingleBonds& narrow, std::size_t first, std::size_t last, BondTable& b) {
   const auto widen = [&](const Column<float>& from, Column<double>& to) {
     for (std::size_t k = first; k < std::min(last, from.size()); ++k) to[k] = from[k];
   };

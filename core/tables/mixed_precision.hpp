@@ -1,6 +1,6 @@
 // Mixed precision: parameters and history of the bonds as floats, which is what the loop then reads and
 // writes. The table of bonds stays what everything else reads; its history is brought up to date where it is
-// looked at (settle in core/world/world.hpp).
+// looked at (sync in core/world/world.hpp).
 #pragma once
 #include "core/tables/bond_table.hpp"
 #include "kernels/loops/bond_pass.hpp"
@@ -8,7 +8,7 @@
 namespace breccia {
 
 /// Empty where the scene runs in full precision; columns of absent features are empty.
-struct NarrowBonds {
+struct SingleBonds {
   Column<float> arm_offset, area, strength_area, stiffness, damping;
   Column<float> shear_x, shear_y, shear_z, plastic_stretch, damage_normal, damage_shear;
 
@@ -21,12 +21,12 @@ struct NarrowBonds {
   }
 };
 
-NarrowBonds narrow_bonds(const BondTable& bonds);
+SingleBonds single_bonds(const BondTable& bonds);
 
 /// Takes the dashpots anew.
-void narrow_dashpots(const BondTable& bonds, NarrowBonds& narrow);
+void dashpots_to_single(const BondTable& bonds, SingleBonds& narrow);
 
 /// Copies the history of bonds [first, last) into the table.
-void widen_history(const NarrowBonds& narrow, std::size_t first, std::size_t last, BondTable& bonds);
+void history_to_double(const SingleBonds& narrow, std::size_t first, std::size_t last, BondTable& bonds);
 
 }  // namespace breccia

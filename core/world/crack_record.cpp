@@ -11,7 +11,7 @@ CrackRecord make_crack_record(bool enabled, int ranges, std::size_t bonds) {
   record.enabled = enabled;
   if (!enabled) return record;
   const std::size_t room = 256 + bonds / 16 / static_cast<std::size_t>(ranges);
-  record.room.assign(static_cast<std::size_t>(ranges), std::vector<FreshBreak>(room));
+  record.room.assign(static_cast<std::size_t>(ranges), std::vector<BreakEvent>(room));
   for (auto& range : record.room) record.notes.push_back({range, 0});
   return record;
 }
@@ -23,7 +23,7 @@ BreakNotes* notes_of(CrackRecord& record, int range) {
 namespace {
 
 template <class Law>
-Crack crack_of(const Law& law, bool coupled, const FreshBreak& was, double dt, const ParticleTable& p,
+Crack crack_of(const Law& law, bool coupled, const BreakEvent& was, double dt, const ParticleTable& p,
                const BondTable& b) {
   const std::size_t k = was.bond;
   const Vec3 l = p.position[b.row_hi[k]] - p.position[b.row_lo[k]];
@@ -56,8 +56,8 @@ void record_cracks(CrackRecord& record, const BondLaw& law, bool coupled, double
     const std::size_t noted = std::min(notes.count, notes.room.size());
     record.missed += notes.count - noted;
     // of several ranks the bonds that need nothing from elsewhere come first
-    std::ranges::sort(notes.room.first(noted), {}, &FreshBreak::bond);
-    for (const FreshBreak& was : notes.room.first(noted)) {
+    std::ranges::sort(notes.room.first(noted), {}, &BreakEvent::bond);
+    for (const BreakEvent& was : notes.room.first(noted)) {
       record.cracks.push_back(
           std::visit([&](const auto& l) { return crack_of(l, coupled, was, dt, p, b); }, law));
       record.cracks.back().time = time;

@@ -27,7 +27,7 @@ struct CrackRecord {
   std::size_t collected = 0;  ///< of them, that the rows of the curve have counted
   std::size_t missed = 0;     ///< broke in a step that broke more bonds at once than are noted
 
-  std::vector<std::vector<FreshBreak>> room;  ///< per range of bonds
+  std::vector<std::vector<BreakEvent>> room;  ///< per range of bonds
   std::vector<BreakNotes> notes;
 };
 

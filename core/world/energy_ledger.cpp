@@ -12,15 +12,15 @@ namespace {
 
 /// What global damping does to a velocity (or a spin) that a force (or a torque) kicks.
 struct Braked {
-  double share = 0;  ///< force of the brake over the velocity, which it opposes
+  double brake = 0;  ///< force of the brake over the velocity, which it opposes
   Vec3 after;        ///< velocity half a step after the force
 };
 
 /// @param by_mass  dt/m, or dt/I
 Braked braked(const Vec3& force, const Vec3& velocity, double alpha, double by_mass) {
   const double speed2 = dot(velocity, velocity);
-  const double share = speed2 > 0.0 ? alpha * std::sqrt(dot(force, force) / speed2) : 0.0;
-  return {share, velocity + by_mass * (force - share * velocity)};
+  const double brake = speed2 > 0.0 ? alpha * std::sqrt(dot(force, force) / speed2) : 0.0;
+  return {brake, velocity + by_mass * (force - brake * velocity)};
 }
 
 Braked braked_motion(const World& w, std::size_t row) {
@@ -68,13 +68,13 @@ StepWork work_on_held(const World& w, std::size_t row) {
   s.kinetic = 0.5 * m * dot(v, motion.after);
   add_platen(w, row, motion.after, s);
   v.z = motion.after.z = 0.0;
-  s.motion_this = half * motion.share * dot(v, v), s.motion_next = half * motion.share * dot(v, motion.after);
+  s.motion_this = half * motion.brake * dot(v, v), s.motion_next = half * motion.brake * dot(v, motion.after);
   if (p.spin.empty() || !w.options.features.rotation) return s;
   const Vec3& spin = p.spin[row];
   const double i = inertia(inertia_factor(w), m, p.radius[row]);
   const Braked turn = braked(p.torque[row], spin, w.options.global_damping.rotation, w.dt / i);
   s.kinetic += 0.5 * i * dot(spin, turn.after);
-  s.spin_this = half * turn.share * dot(spin, spin), s.spin_next = half * turn.share * dot(spin, turn.after);
+  s.spin_this = half * turn.brake * dot(spin, spin), s.spin_next = half * turn.brake * dot(spin, turn.after);
   return s;
 }
 
@@ -85,7 +85,7 @@ double normal_damage(const World& w) {
   const BondTable& b = w.bonds;
   return std::visit(
       [&](const auto& law) {
-        return sum_pairs(w.share, b, w.options.threads, blocks, [&](std::size_t k) {
+        return sum_pairs(w.partition, b, w.options.threads, blocks, [&](std::size_t k) {
           const double damage = b.damage_normal[k];
           if (!(damage > 0.0)) return 0.0;
           const BondConstants<double> bond = constants_of_bond(b, k);
@@ -106,19 +106,19 @@ struct SkinWork {
 
 BondLosses<double> total_bond_losses(const EnergyLedger& ledger) {
   BondLosses<double> sum;
-  for (const BondLosses<double>& loss : std::span(ledger.bonds).first(ledger.own_bonds)) add(sum, loss);
+  for (const BondLosses<double>& loss : std::span(ledger.bonds).first(ledger.owned_bonds)) add(sum, loss);
   return sum;
 }
 
 ContactLosses total_contact_losses(const EnergyLedger& ledger) {
   ContactLosses sum = ledger.earlier_contacts;
-  for (const ContactLosses& loss : std::span(ledger.contacts).first(ledger.own_contacts)) add(sum, loss);
+  for (const ContactLosses& loss : std::span(ledger.contacts).first(ledger.owned_contacts)) add(sum, loss);
   return sum;
 }
 
 /// Added up in the order of ranks: other numbers of ranks differ in the last digits.
 Losses losses_of_all(const World& w) {
-  const Ranks& ranks = w.share.ranks;
+  const Ranks& ranks = w.partition.ranks;
   const Losses mine = losses_of(w.ledger);
   if (ranks.alone()) return mine;
   Losses sum;
@@ -140,28 +140,28 @@ void begin_ledger(World& w, const StepWork& work) {
 
 }  // namespace
 
-EnergyLedger open_ledger(const World& w) {
+EnergyLedger make_ledger(const World& w) {
   EnergyLedger ledger;
   ledger.enabled = true;
-  ledger.bonds.resize(ledger_blocks(w.bonds.padded));
-  ledger.own_bonds = ledger.bonds.size();
+  ledger.bonds.resize(force_blocks(w.bonds.padded));
+  ledger.owned_bonds = ledger.bonds.size();
   return ledger;
 }
 
 void renew_contacts(EnergyLedger& ledger, const ContactTable& contacts) {
   if (!ledger.enabled) return;
   ledger.earlier_contacts = total_contact_losses(ledger);
-  ledger.contacts.assign(ledger_blocks(contacts.padded), {});
-  ledger.own_contacts = ledger_blocks(contacts.size);
+  ledger.contacts.assign(force_blocks(contacts.padded), {});
+  ledger.owned_contacts = force_blocks(contacts.size);
 }
 
-void book_motion(World& w) {
+void account_motion(World& w) {
   EnergyLedger& ledger = w.ledger;
   if (!ledger.enabled) return;
   std::vector<StepWork> blocks;
   const Motion motion = motion_of(w);
   const StepWork work =
-      sum_particle_ranges(w.share, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
+      sum_particle_ranges(w.partition, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
         const std::size_t free = std::clamp(w.particles.free, first, last);
         StepWork sum{w.work_of_free(motion, first, free, w.dt, w.options.global_damping)};
         for (std::size_t row = free; row < last; ++row) sum += work_on_held(w, row);
@@ -176,7 +176,7 @@ void book_motion(World& w) {
   std::vector<SkinWork> skin_blocks;
   SkinWork skin;
   if (w.confinement.pressure != 0.0)
-    skin = sum_listed(w.share, w.confinement.rows, 1, skin_blocks, [&](std::size_t k) {
+    skin = sum_listed(w.partition, w.confinement.rows, 1, skin_blocks, [&](std::size_t k) {
       const Row row = w.confinement.rows[k];
       const Vec3& force = w.confinement.force[k];
       return SkinWork{0.5 * w.dt * dot(force, w.particles.velocity[row]),
@@ -215,7 +215,7 @@ EnergyBalance balance(const World& w) {
   return e;
 }
 
-void note_balance(EnergyLedger& ledger, const EnergyBalance& e) {
+void record_balance(EnergyLedger& ledger, const EnergyBalance& e) {
   ledger.most_work = std::max(ledger.most_work, std::abs(e.work));
   ledger.worst_balance = std::max(ledger.worst_balance, std::abs(e.imbalance()));
   for (const auto& [name, channel] : loss_channels)

@@ -55,7 +55,7 @@ struct EnergyLedger {
   std::vector<ContactLosses> contacts;    ///< a sum for each 64 contacts of the present list
   ContactLosses earlier_contacts;         ///< of the lists before
   /// Of these sums, those that count here: behind them come copies of what other ranks own
-  std::size_t own_bonds = 0, own_contacts = 0;
+  std::size_t owned_bonds = 0, owned_contacts = 0;
   TrapezoidSum platens, pressure;  ///< work in
   TrapezoidSum damped_motion, damped_spin;
   double kinetic = 0;  ///< J, at the end of the last step
@@ -67,8 +67,8 @@ struct EnergyLedger {
 };
 
 /// Sums over a number of bonds or contacts: one for each block of the loop.
-inline std::size_t ledger_blocks(std::size_t rows) {
-  return (rows + LoadBlock::capacity - 1) / LoadBlock::capacity;
+inline std::size_t force_blocks(std::size_t rows) {
+  return (rows + ForceBuffer::capacity - 1) / ForceBuffer::capacity;
 }
 
 /// What bonds and contacts have lost, J.
@@ -83,20 +83,20 @@ void add(BondLosses<double>& sum, const BondLosses<double>& loss);
 void add(ContactLosses& sum, const ContactLosses& loss);
 
 /// Empty books for the bonds of a world.
-EnergyLedger open_ledger(const World& world);
+EnergyLedger make_ledger(const World& world);
 
 /// After the list of contacts was made anew.
 void renew_contacts(EnergyLedger& ledger, const ContactTable& contacts);
 
 /// Books what platens, pressure and global damping do in this step: called when the forces are complete and
 /// the velocities are not yet kicked.
-void book_motion(World& world);
+void account_motion(World& world);
 
 /// At the end of the last step, of all ranks.
 EnergyBalance balance(const World& world);
 
 /// Takes note of a balance; the errors below are the largest of all that were noted.
-void note_balance(EnergyLedger& ledger, const EnergyBalance& balance);
+void record_balance(EnergyLedger& ledger, const EnergyBalance& balance);
 
 /// The larger of imbalance and negative dissipation, over the work put in. 0 while there was none.
 /// (B57)

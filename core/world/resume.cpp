@@ -46,9 +46,9 @@ std::vector<Row> list_contacts(World& w, std::span<const Gid> lo, std::span<cons
   return rows;
 }
 
-void take_up(World& w) {
+void restore(World& w) {
   set_dashpots(w);
-  if (w.options.precision == Precision::mixed) w.narrow_bonds = narrow_bonds(w.bonds);
+  if (w.options.precision == Precision::mixed) w.single_bonds = single_bonds(w.bonds);
   plan_contacts(w);
 }
 

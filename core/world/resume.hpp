@@ -14,6 +14,6 @@ namespace breccia {
 std::vector<Row> list_contacts(World& world, std::span<const Gid> lo, std::span<const Gid> hi);
 
 /// When columns and numbers have been brought back: dashpots, narrow columns and plans that follow from them.
-void take_up(World& world);
+void restore(World& world);
 
 }  // namespace breccia

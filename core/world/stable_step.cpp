@@ -18,8 +18,8 @@ StepScene step_scene(const World& w) {
           .dashpots = w.dashpots,
           .shear_ratio = w.shear_ratio,
           .global_damping = std::max(global.translation, global.rotation),
-          .reach = w.search.skin,
-          .freedom = {w.options.features.rotation, w.space == Space::plane, inertia_factor(w)},
+          .reach = w.neighbour_list.skin,
+          .freedom = {w.options.features.rotation, w.space == Space::two_d, inertia_factor(w)},
           .threads = w.options.threads};
 }
 
@@ -27,7 +27,7 @@ void set_bond_dashpots(World& w) {
   BondTable& b = w.bonds;
   if (b.damping.empty()) return;
   for (std::size_t k = 0; k < b.padded; ++k) b.damping[k] = bond_dashpot(w.dashpots, w.particles, b, k, w.dt);
-  if (!w.narrow_bonds.empty()) narrow_dashpots(b, w.narrow_bonds);
+  if (!w.single_bonds.empty()) dashpots_to_single(b, w.single_bonds);
 }
 
 void set_contact_dashpots(World& w) {
@@ -89,27 +89,27 @@ void choose_step(World& w) {
   sum_loads(w.dashpots, w.particles, w.bonds);
   w.critical_dt = critical_time_step(step_scene(w));
   if (!(std::isfinite(w.critical_dt) && w.critical_dt > 0.0)) refuse_step(w);
-  w.dt = w.step_watch.first_dt = o.safety * w.critical_dt;  // (P11)
+  w.dt = w.step_monitor.first_dt = o.safety * w.critical_dt;  // (P11)
   set_bond_dashpots(w);
 }
 
-void keep_step(World& w) {
+void revise_step(World& w) {
   set_contact_dashpots(w);
-  settle(w);  // what is broken and open no longer counts
+  sync(w);  // what is broken and open no longer counts
   const StepScene scene = step_scene(w);
-  StepWatch& watch = w.step_watch;
-  const std::vector<std::size_t> added = uncounted(w.contacts, watch.counted);
-  if (added.empty() || stability_number_bound(scene, added, w.dt) <= watch.room) return;  // (B44)
-  watch.counted = pairs_of(w.contacts);
+  StepMonitor& monitor = w.step_monitor;
+  const std::vector<std::size_t> added = uncounted(w.contacts, monitor.counted);
+  if (added.empty() || stability_number_bound(scene, added, w.dt) <= monitor.margin) return;  // (B44)
+  monitor.counted = pairs_of(w.contacts);
   constexpr int most_looks = 3;  // one finds the step, the next confirms it, or mends its aim
   for (int look_number = 0; look_number < most_looks; ++look_number) {
-    ++watch.looks;
+    ++monitor.looks;
     const bool first = look_number == 0;
-    const StepLook look = look_at_step(scene, w.dt, first ? largest_number : 0.0);
-    watch.room = 1.0 - look.number / largest_number;
+    const StepEstimate look = estimate_step(scene, w.dt, first ? largest_number : 0.0);
+    monitor.margin = 1.0 - look.number / largest_number;
     // the look at a lowered step says how well the one before has aimed
     const bool well_aimed = first || w.dt <= 1.005 * w.options.safety * look.critical;
-    if (watch.room >= 0.0 && well_aimed) return;
+    if (monitor.margin >= 0.0 && well_aimed) return;
     w.critical_dt = std::min(w.critical_dt, look.critical);
     w.dt = std::min(w.dt, w.options.safety * w.critical_dt);
     set_dashpots(w);

@@ -12,8 +12,8 @@ namespace breccia {
 struct World;
 
 /// What is known about the step in use.
-struct StepWatch {
-  double room = 0;                           ///< of the stability number below 1, at the last look
+struct StepMonitor {
+  double margin = 0;                         ///< of the stability number below 1, at the last look
   std::vector<std::pair<Gid, Gid>> counted;  ///< contacts that were in it, rising
   std::uint64_t looks = 0;                   ///< estimates after the first
   double first_dt = 0;                       ///< s, what the run began with
@@ -26,7 +26,7 @@ void choose_step(World& world);
 /// After the contacts have been listed anew: sets their dashpots, and lowers the step, never raises it, where
 /// it is no longer below the critical one. The step stands while contacts that were not counted before
 /// cannot, by a proven bound, use up the room that there was; only then is the network looked at again.
-void keep_step(World& world);
+void revise_step(World& world);
 
 /// The dashpots of all bonds and contacts for the step in use.
 void set_dashpots(World& world);

@@ -8,39 +8,39 @@
 namespace breccia {
 namespace {
 
-bool search_is_due(World& w) {
+bool rebuild_is_due(World& w) {
   const Lap lap(w.phases, Phase::search);
-  return search_is_due(w.search, w.particles, w.share, w.step, w.dt, w.options.threads);
+  return rebuild_is_due(w.neighbour_list, w.particles, w.partition, w.step, w.dt, w.options.threads);
 }
 
 void search_if_due(World& w) {
-  if (!search_is_due(w)) return;
-  receive_motion(w);
+  if (!rebuild_is_due(w)) return;
+  finish_halo_exchange(w);
   const Lap lap(w.phases, Phase::search);
   // of several ranks the root lists the contacts and looks at the step, for all of them
-  World& whole = bring_together(w);
-  if (w.share.ranks.is_root()) {
+  World& whole = gather_to_root(w);
+  if (w.partition.ranks.is_root()) {
     const ContactMaterial material{w.material.young_modulus, w.alpha, w.space};
-    renew_contacts(whole.search, whole.contacts, whole.particles, material, whole.features,
+    renew_contacts(whole.neighbour_list, whole.contacts, whole.particles, material, whole.features,
                    whole.ledger.enabled, whole.options.threads);
     renew_contacts(whole.ledger, whole.contacts);
-    keep_step(whole);
+    revise_step(whole);
   }
-  if (!w.share.ranks.alone()) return hand_out_contacts(w);
+  if (!w.partition.ranks.alone()) return broadcast_contacts(w);
   plan_contacts(w);
 }
 
 void confine(World& w) {
   const Lap lap(w.phases, Phase::confinement);
-  press_skin(w.confinement, w.particles, w.share);
+  apply_confinement(w.confinement, w.particles, w.partition);
 }
 
 /// The record of cracks looks at the bonds that have just broken.
-void settle_broken(World& w) {
-  if (w.narrow_bonds.empty()) return;
+void sync_broken(World& w) {
+  if (w.single_bonds.empty()) return;
   for (const BreakNotes& notes : w.cracks.notes)
-    for (const FreshBreak& broken : notes.room.first(std::min(notes.count, notes.room.size())))
-      widen_history(w.narrow_bonds, broken.bond, broken.bond + 1, w.bonds);
+    for (const BreakEvent& broken : notes.room.first(std::min(notes.count, notes.room.size())))
+      history_to_double(w.single_bonds, broken.bond, broken.bond + 1, w.bonds);
 }
 
 /// Calls pass(first, last) for the bonds of a range: all of them, or of several ranks the runs of whole
@@ -49,16 +49,16 @@ template <class Pass>
 void for_blocks(const World& w, int range, bool reaching, const Pass& pass) {
   const std::size_t last = w.bond_plan.first(range + 1);
   std::size_t first = w.bond_plan.first(range);
-  if (w.share.ranks.alone()) return pass(first, last);
+  if (w.partition.ranks.alone()) return pass(first, last);
   const auto is_wanted = [&](std::size_t bond) {
-    return (w.share.reaching[bond / LoadBlock::capacity] != 0) == reaching;
+    return (w.partition.interface_blocks[bond / ForceBuffer::capacity] != 0) == reaching;
   };
   while (first < last) {
     std::size_t end = first;
-    while (end < last && is_wanted(end)) end += LoadBlock::capacity;
+    while (end < last && is_wanted(end)) end += ForceBuffer::capacity;
     end = std::min(end, last);
     if (first < end) pass(first, end);
-    first = std::max(end, first + LoadBlock::capacity);
+    first = std::max(end, first + ForceBuffer::capacity);
   }
 }
 
@@ -69,7 +69,7 @@ void pass_over_bonds(World& w, bool reaching) {
   const BondPassIn in = bond_pass_in(w);
   const BondPassHistory history = bond_pass_history(w);
   // copies, which lie behind the blocks of owned bonds, break on the rank that owns them
-  const std::size_t owned = LoadBlock::capacity * ledger_blocks(b.size);
+  const std::size_t owned = ForceBuffer::capacity * force_blocks(b.size);
   for_ranges(w.bond_plan.ranges, [&](int range) {
     for_blocks(w, range, reaching, [&](std::size_t first, std::size_t last) {
       if (first < owned)
@@ -81,12 +81,12 @@ void pass_over_bonds(World& w, bool reaching) {
 
 void bond_forces(World& w) {
   pass_over_bonds(w, false);
-  if (!w.share.ranks.alone()) {
-    receive_motion(w);
+  if (!w.partition.ranks.alone()) {
+    finish_halo_exchange(w);
     pass_over_bonds(w, true);
   }
   const Lap lap(w.phases, Phase::bonds);
-  settle_broken(w);
+  sync_broken(w);
   record_cracks(w.cracks, w.law, w.features.criterion == Criterion::coupled, w.time, w.dt, w.particles,
                 w.bonds);
 }
@@ -104,28 +104,28 @@ void contact_forces(World& w) {
   for_ranges(w.contact_plan.ranges, [&](int range) {
     contact_pass(in, history, w.contact_plan.first(range), w.contact_plan.first(range + 1), to);
   });
-  collect(w.contact_plan, p, w.share.own(), w.options.threads);
+  collect(w.contact_plan, p, w.partition.owned(), w.options.threads);
 }
 
 void gather_bond_forces(World& w) {
   const Lap lap(w.phases, Phase::gather);
-  collect(w.bond_plan, w.particles, w.share.own(), w.options.threads);
+  collect(w.bond_plan, w.particles, w.partition.owned(), w.options.threads);
 }
 
-void hold_skin(World& w) {
+void restrain_laterally(World& w) {
   const Lap lap(w.phases, Phase::confinement);
-  hold_skin(w.confinement, w.particles, w.share);
+  restrain_laterally(w.confinement, w.particles, w.partition);
 }
 
-void book_energies(World& w) {
+void account_energies(World& w) {
   if (!w.ledger.enabled) return;
   const Lap lap(w.phases, Phase::ledger);
-  book_motion(w);
+  account_motion(w);
 }
 
 void move_platens(World& w) {
   const Lap lap(w.phases, Phase::platens);
-  drive_platens(w.platens, w.particles, w.share, w.first_top, w.dt);
+  drive_platens(w.platens, w.particles, w.partition, w.first_top, w.dt);
 }
 
 void integrate(World& w) {
@@ -133,8 +133,8 @@ void integrate(World& w) {
   ParticleTable& p = w.particles;
   const Motion motion = motion_of(w);
   const GlobalDamping& damping = w.options.global_damping;
-  const Rows free = w.share.own(0, p.free), lower = w.share.own(p.free, w.first_top),
-             upper = w.share.own(w.first_top, p.size);
+  const Rows free = w.partition.owned(0, p.free), lower = w.partition.owned(p.free, w.first_top),
+             upper = w.partition.owned(w.first_top, p.size);
   for_rows(free.last - free.first, w.options.threads, [&](std::size_t first, std::size_t last) {
     w.integrate_free(motion, free.first + first, free.first + last, w.dt, damping);
   });
@@ -150,11 +150,11 @@ void advance(World& w) {
   bond_forces(w);
   gather_bond_forces(w);
   contact_forces(w);
-  hold_skin(w);
+  restrain_laterally(w);
   move_platens(w);
-  book_energies(w);
+  account_energies(w);
   integrate(w);
-  send_motion(w);
+  start_halo_exchange(w);
   w.time += w.dt;
   ++w.step;
 }

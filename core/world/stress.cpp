@@ -65,7 +65,7 @@ double held_pressure(const World& w) {
     return away > 0.0 ? (x.x * f.x + x.y * f.y) / away : 0.0;
   };
   std::vector<double> blocks;
-  const double pressed = -sum_listed(w.share, c.rows, 1, blocks,
+  const double pressed = -sum_listed(w.partition, c.rows, 1, blocks,
                                      [&](std::size_t k) { return outward(c.rows[k], c.force[k]); });
   if (!(pressed > 0.0)) return 0.0;
   const auto held_by = [&](Row lo, Row hi, const Vec3& on_lo) {
@@ -74,7 +74,7 @@ double held_pressure(const World& w) {
   const bool coupled = w.features.criterion == Criterion::coupled;
   const BondTable& b = w.bonds;
   const auto bonds_hold = [&](const auto& law) {
-    return sum_pairs(w.share, b, w.options.threads, blocks, [&](std::size_t k) {
+    return sum_pairs(w.partition, b, w.options.threads, blocks, [&](std::size_t k) {
       const Vec3 l = p.position[b.row_hi[k]] - p.position[b.row_lo[k]];
       const double distance = norm(l);
       const BondForce<double> f =
@@ -84,8 +84,8 @@ double held_pressure(const World& w) {
   };
   double held = std::visit(bonds_hold, w.law);
   const ContactTable& t = w.contacts;
-  if (w.search.awake)
-    held += sum_pairs(w.share, t, w.options.threads, blocks, [&](std::size_t k) {
+  if (w.neighbour_list.awake)
+    held += sum_pairs(w.partition, t, w.options.threads, blocks, [&](std::size_t k) {
       const Vec3 l = p.position[t.row_hi[k]] - p.position[t.row_lo[k]];
       const double distance = norm(l), overlap = t.free_length[k] - distance;
       if (overlap <= 0.0) return 0.0;
@@ -98,7 +98,7 @@ void fill_stress_columns(World& w) {
   ParticleTable& p = w.particles;
   const auto share = [&](std::size_t row) {
     const double r = p.radius[row];
-    return w.space == Space::plane ? r * r : r * r * r;
+    return w.space == Space::two_d ? r * r : r * r * r;
   };
   double shares = 0.0;
   for (std::size_t row = 0; row < p.size; ++row) shares += share(row);

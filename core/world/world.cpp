@@ -18,7 +18,7 @@ void set_masses(ParticleTable& p, double density, Space space) {
   for (std::size_t row = 0; row < p.size; ++row) {
     const double r = p.radius[row];
     // (B1)
-    p.mass[row] = density * (space == Space::plane ? pi * r * r : 4.0 / 3.0 * pi * r * r * r);
+    p.mass[row] = density * (space == Space::two_d ? pi * r * r : 4.0 / 3.0 * pi * r * r * r);
   }
 }
 
@@ -74,18 +74,18 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.particles = assembly.particles;
   w.bonds = assembly.bonds;
   w.first_top = assembly.first_top;
-  w.share = share_alone(w.particles.size);
+  w.partition = serial_partition(w.particles.size);
   set_masses(w.particles, material.density, w.space);
   set_bond_constants(w);
   choose_step(w);
-  if (options.precision == Precision::mixed) w.narrow_bonds = narrow_bonds(w.bonds);
+  if (options.precision == Precision::mixed) w.single_bonds = single_bonds(w.bonds);
   w.platens = make_platens(assembly, w.particles, options.rough_platens, material.young_modulus);
   w.confinement = make_confinement(assembly, options.skin_weights, options.rigid_skin);
   // (B97)
-  w.search = make_contact_search(assembly, options.new_contacts, 0.2 * assembly.mean_radius);
+  w.neighbour_list = make_neighbour_list(assembly, options.new_contacts, 0.2 * assembly.mean_radius);
   w.cracks = make_crack_record(options.cracks && w.features.breakage, options.threads, w.bonds.size);
   w.bond_plan =
-      plan_scatter(options.scatter, options.threads, LoadBlock::capacity, w.bonds.row_lo, w.bonds.row_hi,
+      plan_scatter(options.scatter, options.threads, ForceBuffer::capacity, w.bonds.row_lo, w.bonds.row_hi,
                    std::span(w.bonds.gid_lo).first(w.bonds.size),
                    std::span(w.bonds.gid_hi).first(w.bonds.size), w.bonds.arm_offset, w.particles.size);
   w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set, kind);
@@ -95,7 +95,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   if (options.ledger) {
     for (Column<double>* column : {&w.bonds.spring_force, &w.bonds.viscous_force, &w.bonds.shear_factor})
       column->assign(w.bonds.padded, 0.0);
-    w.ledger = open_ledger(w);
+    w.ledger = make_ledger(w);
   }
   return w;
 }
@@ -112,7 +112,7 @@ BondPassIn bond_pass_in(const World& w) {
           b.row_hi,
           b.rest_length,
           constant_columns(b),
-          w.narrow_bonds.constants()};
+          w.single_bonds.constants()};
 }
 
 BondEnergyIn bond_energy_in(const World& w, double back) {
@@ -144,25 +144,25 @@ Motion motion_of(World& w) {
 BondPassHistory bond_pass_history(World& w) {
   BondTable& b = w.bonds;
   return {history_columns(b),
-          w.narrow_bonds.history(),
+          w.single_bonds.history(),
           {b.spring_force, b.viscous_force, b.shear_factor, w.ledger.bonds}};
 }
 
-void settle(World& w) { widen_history(w.narrow_bonds, 0, w.bonds.padded, w.bonds); }
+void sync(World& w) { history_to_double(w.single_bonds, 0, w.bonds.padded, w.bonds); }
 
 void plan_contacts(World& w) {
   const ContactTable& c = w.contacts;
-  w.contact_plan = plan_scatter(w.options.scatter, w.options.threads, LoadBlock::capacity, c.row_lo, c.row_hi,
+  w.contact_plan = plan_scatter(w.options.scatter, w.options.threads, ForceBuffer::capacity, c.row_lo, c.row_hi,
                                 c.gid_lo, c.gid_hi, c.arm_offset, w.particles.size);
 }
 
 double inertia_factor(const World& w) {
-  return w.space == Space::plane ? disc_inertia_factor : sphere_inertia_factor;
+  return w.space == Space::two_d ? disc_inertia_factor : sphere_inertia_factor;
 }
 
 BrokenCount count_broken(const World& w) {
   std::vector<BrokenCount> blocks;
-  return sum_pairs(w.share, w.bonds, w.options.threads, blocks, [&](std::size_t k) {
+  return sum_pairs(w.partition, w.bonds, w.options.threads, blocks, [&](std::size_t k) {
     const BondState state = bond_state(w.bonds, k);
     return BrokenCount{std::size_t{state == BondState::broken_tension},
                        std::size_t{state == BondState::broken_shear}};
@@ -173,7 +173,7 @@ double kinetic_energy(const World& w) {
   std::vector<double> blocks;
   const ParticleTable& p = w.particles;
   const double factor = inertia_factor(w);
-  return sum_particles(w.share, w.options.threads, blocks, [&](std::size_t row) {
+  return sum_particles(w.partition, w.options.threads, blocks, [&](std::size_t row) {
     double twice = p.mass[row] * dot(p.velocity[row], p.velocity[row]);
     if (!p.spin.empty()) twice += inertia(factor, p.mass[row], p.radius[row]) * dot(p.spin[row], p.spin[row]);
     return 0.5 * twice;
@@ -192,7 +192,7 @@ double stored_energy(const World& w, double back) {
   const double sum = std::visit(
       [&](const auto& law) {
         return sum_pair_ranges(
-            w.share, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
+            w.partition, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
               double energy = w.undamaged_energy(in, first, last);
               if (b.damage_normal.empty()) return energy;
               for (std::size_t k = first; k < last; ++k)
@@ -204,8 +204,8 @@ double stored_energy(const World& w, double back) {
       },
       w.law);
   const ContactTable& c = w.contacts;
-  if (!w.search.awake) return sum;
-  return sum + sum_pairs(w.share, c, w.options.threads, blocks, [&](std::size_t k) {
+  if (!w.neighbour_list.awake) return sum;
+  return sum + sum_pairs(w.partition, c, w.options.threads, blocks, [&](std::size_t k) {
            const double overlap = c.free_length[k] - distance_of(c.row_lo[k], c.row_hi[k]);
            if (overlap <= 0.0) return 0.0;
            double energy = 0.5 * c.stiffness[k] * overlap * overlap;

@@ -47,7 +47,7 @@ struct World {
   WorldOptions options;
   Body body;
   Material material;
-  Space space = Space::solid;
+  Space space = Space::three_d;
   BondLaw law;
   Features features;  ///< that run: those asked for, or the nearest superset that is built
   double volume = 0;  ///< m^3, nominal
@@ -60,18 +60,18 @@ struct World {
   std::uint64_t step = 0;
   ParticleTable particles;
   BondTable bonds;
-  NarrowBonds narrow_bonds;  ///< in mixed precision
+  SingleBonds single_bonds;  ///< in mixed precision
   ContactTable contacts;
   std::size_t first_top = 0;
-  Share share;  ///< of this rank
+  Partition partition;  ///< of this rank
   Platens platens;
   Confinement confinement;
-  ContactSearch search;
+  NeighbourList neighbour_list;
   ScatterPlan bond_plan, contact_plan;
   CrackRecord cracks;
   EnergyLedger ledger;
   Dashpots dashpots;
-  StepWatch step_watch;
+  StepMonitor step_monitor;
   MassScaling mass_scaling;
   BondPass bond_pass = nullptr;
   IntegrateFree integrate_free = nullptr;
@@ -95,7 +95,7 @@ BondEnergyIn bond_energy_in(const World& world, double back);
 Motion motion_of(World& world);
 
 /// Brings the table of bonds up to date, before anyone looks at it; in full precision it always is.
-void settle(World& world);
+void sync(World& world);
 
 /// After the list of contacts was made anew: who adds to whom.
 void plan_contacts(World& world);

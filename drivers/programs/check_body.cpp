@@ -37,10 +37,18 @@ std::string text_of(const Size& size, const SurfaceGap& gap, double mean_radius)
       std::abs(gap.median), millimetres(fits));
 }
 
+std::string describe(const SurfaceFit& fit) {
+  std::string text = fmt::format(
+      "spheres beyond the nominal body (+) or behind it (-), in mean radii: sides {:+.2f}", -fit.across.median);
+  if (fit.depth) text += fmt::format(" and {:+.2f}", -fit.depth->median);
+  if (fit.height) text += fmt::format(", ends {:+.2f}", -fit.height->median);
+  return text + fmt::format("; middle off by {:.2f}", norm(fit.offset));
+}
+
 }  // namespace
 
 std::vector<std::string> check_body(const Case& c, const Specimen& placed, const std::vector<char>& of_body,
-                                    const Specimen& as_read) {
+                                    const Specimen& as_read, Progress& progress) {
   const SpecimenCase& s = c.specimen;
   std::vector<Vec3> centre;
   std::vector<double> radius;
@@ -52,6 +60,7 @@ std::vector<std::string> check_body(const Case& c, const Specimen& placed, const
   }
   mean_radius /= static_cast<double>(radius.size());
   const SurfaceFit fit = fit_surface(s.body, s.space, centre, radius, mean_radius);
+  say(progress, describe(fit));
   std::vector<std::string> warnings;
   const bool box = s.body.shape == Shape::box;
   const auto check_size = [&](const Size& size, const SurfaceGap& gap) {

@@ -45,7 +45,7 @@ int end_rank(const Ranks& ranks, const std::string& program, std::string_view wh
     end(program, what, code);
   }
   std::fflush(nullptr);
-  end_job(code);
+  mpi_abort(code);
 }
 
 }  // namespace
@@ -83,19 +83,19 @@ int run_body(const std::string& program, int threads, const std::function<void()
                      fmt::format("{} ranks asked for; this program runs on one (use --threads)", ranks.count),
                      2)
                : 2;
-  ranks = join_job();
+  ranks = mpi_init();
   try {
     body();
   } catch (const BadInput& error) {
     return end_rank(ranks, program, error.what(), 2);
   } catch (const SimulationBroke& error) {
     return end_rank(ranks, program, error.what(), 3);
-  } catch (const FileTrouble& error) {
+  } catch (const WriteError& error) {
     return end_rank(ranks, program, error.what(), 4);
   } catch (const std::bad_alloc&) {
     return end_rank(ranks, program, "not enough memory: use fewer spheres", 3);
   }
-  leave_job();
+  mpi_finalize();
   return interrupted() ? 130 : 0;
 }
 

@@ -42,7 +42,7 @@ void run_impact_program(const CommandLine& line) {
 
   begin_results();
   claim_run_folder(line.out, line.force);
-  write_aside(line.out / "case.toml", c.resolved);
+  atomic_write(line.out / "case.toml", c.resolved);
   ImpactResult result;
   try {
     run_impact(c.scene, result, interrupted);

@@ -5,7 +5,7 @@
 namespace breccia {
 
 /// Writes OUT/case.toml, summary.json and curve-0.csv; the curve also where the simulation broke.
-/// @throws BadInput, SimulationBroke, FileTrouble
+/// @throws BadInput, SimulationBroke, WriteError
 void run_impact_program(const CommandLine& line);
 
 }  // namespace breccia

@@ -137,15 +137,15 @@ void begin_frames(const RunOfSeries& run, const World& w, const LoadTest& load, 
   if (!any(run.ranks, fresh)) return;
   const std::pair<std::string, double> attributes[] = {
       {"confinement_Pa", load.confinement}, {"alpha", w.alpha}, {"time_step_s", w.dt}};
-  begin_run(results, number, attributes, w.share, w.particles, w.bonds);
+  begin_run(results, number, attributes, w.partition, w.particles, w.bonds);
 }
 
 /// One more frame in results.h5, by all ranks, and for ParaView, by the root.
 void write_frame(const RunOfSeries& run, World& w, std::size_t frame, const CurveRow& row) {
   const int number = static_cast<int>(run.k), at = static_cast<int>(frame);
-  World& whole = bring_together(w);
+  World& whole = gather_to_root(w);
   if (run.c.stress) fill_stress_columns(w);
-  append_frame(run.folder / "results.h5", number, at, {w.time, w.step, row.axial_strain}, w.share,
+  append_frame(run.folder / "results.h5", number, at, {w.time, w.step, row.axial_strain}, w.partition,
                w.particles, w.bonds);
   if (!run.ranks.is_root()) return;
   if (run.c.stress && !run.ranks.alone()) fill_stress_columns(whole);
@@ -174,7 +174,7 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
     crack_file.emplace(run.folder / fmt::format("cracks-{}.csv", run.k));
     crack_file->add(std::span(w.cracks.cracks).first(state.cracks_told));
   }
-  if (!run.ranks.alone()) w = cut(std::move(w), run.ranks);
+  if (!run.ranks.alone()) w = distribute(std::move(w), run.ranks);
   begin_frames(run, w, load, state.stage != Stage::not_begun);
 
   LoadHooks hooks;
@@ -196,14 +196,23 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
   } catch (...) {
     try {
       if (run.ranks.is_root()) write_curve(curve, result.record.rows);
-    } catch (const FileTrouble&) {  // the first trouble is the one to report
+    } catch (const WriteError&) {  // the first trouble is the one to report
     }
     throw;
   }
-  const World& whole = bring_together(w);
+  const World& whole = gather_to_root(w);
   if (!run.ranks.is_root()) return {};
   write_curve(curve, result.record.rows);
   return summarise(run.test, whole, a, load, result);
+}
+
+/// What the summary of a run says of its specimen.
+void note_specimen(const ReadySpecimen& ready, RunSummary& run) {
+  run.loose_particles = ready.connection.loose;
+  run.pieces = ready.connection.pieces.size();
+  if (ready.factor.affine > 0.0) run.alpha_affine = ready.factor.affine;
+  if (ready.assembly.grip == Support::ends) run.mantle_cover = lateral_cover(ready.assembly);
+  run.warnings.insert(run.warnings.begin(), ready.warnings.begin(), ready.warnings.end());
 }
 
 std::string result_line(const Case& c, std::size_t k, const std::string& test, const RunSummary& run) {
@@ -262,17 +271,17 @@ void run_test_program(const CommandLine& line) {
   if (line.explain || line.dry_run) {
     const World w = make_world(ready.assembly, c.materials.front(), ready.factor, options);
     say(progress, step_line(w, c.safety));
-    if (const std::string elastic = describe_elasticity(c, ready, line.threads); !elastic.empty())
+    if (const std::string elastic = describe_elasticity(c, line.program, ready, line.threads); !elastic.empty())
       say(progress, elastic);
     if (line.explain) say(progress, "\n" + explain(w));
     return;
   }
 
-  wait_for_all(ranks);  // until nobody reads what was there any more
+  barrier(ranks);  // until nobody reads what was there any more
   begin_results();
   if (!found && ranks.is_root()) {
     claim_run_folder(line.out, line.force || line.resume);
-    write_aside(line.out / "case.toml", c.resolved);
+    atomic_write(line.out / "case.toml", c.resolved);
     if (c.frames > 0) create_results(line.out / "results.h5", c.resolved);
   }
   SeriesSummary series;
@@ -295,6 +304,7 @@ void run_test_program(const CommandLine& line) {
     const std::string finished = runs_text(series.runs);
     series.runs.push_back(
         run_one({c, ranks, line.program, k, line.out, progress}, w, ready.assembly, finished, state, result));
+    note_specimen(ready, series.runs.back());
     stopped = result.stopped;
     if (!ranks.is_root()) continue;
     fit_peaks(series);

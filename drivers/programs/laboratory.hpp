@@ -12,7 +12,7 @@ namespace breccia {
 LoadTest load_test(const Case& c, const std::string& test, std::size_t run);
 WorldOptions world_options(const Case& c, const std::string& test, const Features& asked, int threads);
 
-/// @throws BadInput, SimulationBroke, FileTrouble
+/// @throws BadInput, SimulationBroke, WriteError
 void run_test_program(const CommandLine& line);
 
 }  // namespace breccia

@@ -5,7 +5,7 @@
 namespace breccia {
 
 /// Writes OUT/specimen.csv and OUT/case.toml.
-/// @throws BadInput, FileTrouble
+/// @throws BadInput, WriteError
 void run_pack_program(const CommandLine& line);
 
 }  // namespace breccia

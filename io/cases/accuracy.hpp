@@ -6,11 +6,11 @@
 namespace breccia {
 
 /// A key that a recipe sets where the case does not name it, and the value as one writes it.
-struct RecipeStandard {
+struct RecipeDefault {
   std::string_view key, value;
 };
 
 /// @param word  "fast", "normal", "reference"; of "normal" every key has its usual default
-std::span<const RecipeStandard> accuracy_recipe(std::string_view word);
+std::span<const RecipeDefault> accuracy_recipe(std::string_view word);
 
 }  // namespace breccia

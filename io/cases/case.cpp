@@ -29,7 +29,7 @@ Layer part_of(const Layer& layer, bool material) {
 
 /// Whether a key that was not given takes its default in this case.
 bool takes_standard(const Key& key, const Layer& layer, const std::string& test) {
-  if (layer.contains(key.name) || is_material(key.name) || standard_of(key, test).empty()) return false;
+  if (layer.contains(key.name) || is_material(key.name) || default_text_of(key, test).empty()) return false;
   if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) return false;
   const Key* other = rival(key);
   if (other && layer.contains(other->name)) return false;
@@ -76,7 +76,7 @@ struct Checks {
   void body() const {
     const Body& body = c.specimen.body;
     const bool box = body.shape == Shape::box, disc = body.shape == Shape::disc;
-    if (c.specimen.space == Space::plane) return body_in_plane();
+    if (c.specimen.space == Space::two_d) return body_in_plane();
     if (!has("specimen.diameter")) no("specimen.diameter", "missing; give the nominal diameter, \"150 mm\"");
     if (!has("specimen.height"))
       no("specimen.height", "missing; give the nominal height along the axis, \"300 mm\"");
@@ -121,7 +121,7 @@ struct Checks {
   }
 
   void packing() const {
-    if (has("specimen.pack.genesis_pressure") && c.specimen.space != Space::plane)
+    if (has("specimen.pack.genesis_pressure") && c.specimen.space != Space::two_d)
       no("specimen.pack.genesis_pressure",
          "presses discs in a plane; write specimen.dimensions = 2 or leave it out");
     if (c.specimen.axis != 'z') no("specimen.axis", "a packing made here has its axis along z; valid: \"z\"");
@@ -172,7 +172,7 @@ struct Checks {
     if (of_bonds && c.bonds.alpha_rule != AlphaRule::number)
       no("bonds.alpha",
          fmt::format("law {} has stiffnesses of its own, no area to scale; leave it out", quote(name)));
-    if (of_bonds && c.specimen.space != Space::plane)
+    if (of_bonds && c.specimen.space != Space::two_d)
       refuse(where, "material.law",
              fmt::format("law {} is one of discs; set specimen.dimensions = 2", quote(name)));
   }
@@ -180,7 +180,7 @@ struct Checks {
   /// A [[material.at]] that no run uses is a slip of the pen, unless --set has chosen other confinements.
   void confinements(const std::vector<ConfinementLayer>& groups) const {
     if (const Key* key = find_key("test.confinement"); !accepts(*key, test) && !groups.empty())
-      refuse(groups.front().place, "material.at", fmt::format("{}; leave it out", key->why_not));
+      refuse(groups.front().place, "material.at", fmt::format("{}; leave it out", key->reason));
     if (place("test.confinement") == "--set") return;
     std::string list;
     for (double p : c.test.confinement)
@@ -251,19 +251,19 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   const auto take = [&](std::string_view name, std::string_view value) {
     const Key& key = *find_key(name);
     if (test != "pack" && accepts(key, test) && !layer.contains(key.name))
-      layer[std::string(key.name)] = {read_standard_text(key, value), ""};
+      layer[std::string(key.name)] = {read_default_text(key, value), ""};
   };
-  for (const LawStandard& standard : facts_of(law).standards) take(standard.key, standard.value);
+  for (const LawDefault& default_text : facts_of(law).defaults) take(default_text.key, default_text.value);
   if (const auto accuracy = layer.find("time.accuracy"); accuracy != layer.end())
-    for (const RecipeStandard& standard : accuracy_recipe(accuracy->second.reading.word))
-      take(standard.key, standard.value);
+    for (const RecipeDefault& default_text : accuracy_recipe(accuracy->second.reading.word))
+      take(default_text.key, default_text.value);
   const Key& dimensions = *find_key("specimen.dimensions");
   const auto asked = layer.find(dimensions.name);
   const bool plane =
-      (asked == layer.end() ? read_standard(dimensions, test) : asked->second.reading).whole == 2;
+      (asked == layer.end() ? read_default(dimensions, test) : asked->second.reading).whole == 2;
   for (const Key& key : all_keys())
     if (takes_standard(key, layer, test))
-      layer[std::string(key.name)] = {read_standard(key, test, plane ? Space::plane : Space::solid), ""};
+      layer[std::string(key.name)] = {read_default(key, test, plane ? Space::two_d : Space::three_d), ""};
 
   Case c;
   c.source = file;
@@ -274,7 +274,7 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   checks.specimen();
   if (plane) {
     if (c.specimen.body.shape == Shape::disc) c.specimen.body.height = c.specimen.body.diameter;
-    if (c.specimen.pack) c.specimen.pack->space = Space::plane;
+    if (c.specimen.pack) c.specimen.pack->space = Space::two_d;
   }
   if (test != "pack") checks.loading();
   if (c.specimen.file) {

@@ -16,7 +16,7 @@ namespace breccia {
 struct SpecimenCase {
   std::optional<std::filesystem::path> file;  ///< the case's folder in front
   std::optional<PackRequest> pack;
-  Space space = Space::solid;
+  Space space = Space::three_d;
   Body body;                   ///< a disc in the plane: its height is its diameter
   char axis = 'z';             ///< of the cylinder or disc in the file; in the plane the direction of loading
   std::optional<Vec3> centre;  ///< m; overrides the middle of the box around the spheres

@@ -66,9 +66,9 @@ void apply_set(TomlNode& root, const std::string& text) {
 // --- one table, by the declarations of its keys
 
 Reading standard_reading(const Key& key) {
-  if (key.kind != Kind::quantities) return read_standard(key, program);
+  if (key.kind != Kind::quantities) return read_default(key, program);
   Reading reading;
-  for (const std::string& number : split_words(key.standard)) reading.numbers.push_back(std::stod(number));
+  for (const std::string& number : split_words(key.default_text)) reading.numbers.push_back(std::stod(number));
   return reading;
 }
 
@@ -112,7 +112,7 @@ std::string read_fields(const std::vector<const Field<T>*>& fields, const TomlTa
     if (!belongs(field, kind)) continue;
     if (!nodes[k] && field.required)
       refuse(place, field.key.name, fmt::format("missing; {}", describe_values(field.key)));
-    if (!nodes[k] && field.key.standard.empty()) continue;
+    if (!nodes[k] && field.key.default_text.empty()) continue;
     if (nodes[k] && field.key.dimension == Dimension{0, 0, -1}) refuse_hertz(field.key, *nodes[k]);
     const Reading reading = nodes[k] ? read_value(field.key, *nodes[k]) : standard_reading(field.key);
     field.store(row, reading);
@@ -269,7 +269,7 @@ void describe_fields(std::string& text, std::span<const Field<T>> fields, std::s
     if (table_of(key) != table) table = table_of(key), text += fmt::format("\n{}{}{}\n", left, table, right);
     const std::string of = field.kinds.empty() ? "" : fmt::format("{}: ", field.kinds);
     text += fmt::format("  {:<17} {:<44} {:<16} {}{}\n", word_of(key), describe_values(key),
-                        key.standard.empty() ? "-" : key.standard, of, key.meaning);
+                        key.default_text.empty() ? "-" : key.default_text, of, key.meaning);
   }
 }
 

@@ -62,7 +62,7 @@ struct Walker {
   }
 
   void take(const Key& key, const TomlNode& node, Layer& layer) const {
-    if (!accepts(key, test)) refuse(node.place, key.name, fmt::format("{}; leave it out", key.why_not));
+    if (!accepts(key, test)) refuse(node.place, key.name, fmt::format("{}; leave it out", key.reason));
     try {
       layer[std::string(key.name)] = {read_value(key, node), node.place};
     } catch (const BadInput& error) {

@@ -45,8 +45,8 @@ void fit_to_law(Layer& material) {
   std::erase_if(material, [&](const auto& entry) { return is_foreign(entry.first, facts); });
   for (const LawParameter& own : facts.own) {
     const Key& key = *find_key(std::string("material.") + std::string(own.key));
-    if (!own.standard.empty() && !material.contains(key.name))
-      material[std::string(key.name)] = {read_standard_text(key, own.standard), ""};
+    if (!own.default_text.empty() && !material.contains(key.name))
+      material[std::string(key.name)] = {read_default_text(key, own.default_text), ""};
   }
 }
 
@@ -59,7 +59,7 @@ Layer laid(const MaterialLayers& m, const Layer* preset_at, const Layer* given_a
   lay_over(result, m.set);
   result.erase("material.preset");
   for (const char* name : {"material.law", "material.criterion"})
-    if (!result.contains(name)) result[name] = {read_standard(*find_key(name), ""), ""};
+    if (!result.contains(name)) result[name] = {read_default(*find_key(name), ""), ""};
   fit_to_law(result);
   return result;
 }
@@ -99,7 +99,7 @@ const LawFacts& facts_of(std::string_view law) {
     for_each_law([&]<class Law>(const Law&) {
       LawFacts facts{Law::name, split_words(Law::takes), {}, {}, false};
       for (const LawParameter& own : Law::own) facts.own.push_back(own);
-      for (const LawStandard& standard : Law::standards) facts.standards.push_back(standard);
+      for (const LawDefault& default_text : Law::defaults) facts.defaults.push_back(default_text);
       for (const Features& set : Law::feature_sets) facts.plasticity = facts.plasticity || set.plasticity;
       list.push_back(std::move(facts));
     });

@@ -40,7 +40,7 @@ struct LawFacts {
   std::string_view name;
   std::vector<std::string> takes;
   std::vector<LawParameter> own;
-  std::vector<LawStandard> standards;
+  std::vector<LawDefault> defaults;
   bool plasticity = false;
 
   bool has(std::string_view key) const;  ///< uses this key of [material], one that not every law uses

@@ -34,14 +34,14 @@ bool accepts(const Key& key, std::string_view test) {
   return std::find(refused.begin(), refused.end(), test) == refused.end();
 }
 
-std::string_view standard_of(const Key& key, std::string_view test, Space space) {
+std::string_view default_text_of(const Key& key, std::string_view test, Space space) {
   for (std::string_view rest = key.standard_for; !rest.empty();) {
     const std::string_view one = rest.substr(0, rest.find(' '));
     rest.remove_prefix(std::min(one.size() + 1, rest.size()));
     const std::size_t equals = one.find('=');
     if (one.substr(0, equals) == test) return one.substr(equals + 1);
   }
-  return space == Space::plane && !key.standard_of_plane.empty() ? key.standard_of_plane : key.standard;
+  return space == Space::two_d && !key.default_2d.empty() ? key.default_2d : key.default_text;
 }
 
 std::vector<std::string> key_names(std::string_view test, std::string_view table) {

@@ -90,7 +90,7 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-[[noreturn]] void refuse_later(const Key& key, const TomlNode& node) {
+[[noreturn]] void refuse_reserved(const Key& key, const TomlNode& node) {
   const auto words = split_words(key.words);
   const std::string cure = key.kind == Kind::boolean ? "valid: false"
                            : words.empty()           ? "leave it out"
@@ -104,7 +104,7 @@ std::string read_word(const Key& key, const TomlNode& node) {
   if (!word)
     refuse(node.place, key.name,
            fmt::format("a word is wanted, not {}; valid: {}", shown(node), quote_list(words)));
-  if (contains(split_words(key.later), *word)) refuse_later(key, node);
+  if (contains(split_words(key.reserved), *word)) refuse_reserved(key, node);
   if (contains(words, *word)) return *word;
   const std::string number = key.kind == Kind::word_or_number ? ", or a number" : "";
   refuse(node.place, key.name, fmt::format("unknown {}; {}{}", quote(*word), suggest(*word, words), number));
@@ -150,7 +150,7 @@ Reading read_value(const Key& key, const TomlNode& node) {
     case Kind::boolean: {
       const auto* flag = std::get_if<bool>(&node.value);
       if (!flag) refuse(node.place, key.name, "true or false is wanted, not " + shown(node));
-      if (*flag && key.later == "true") refuse_later(key, node);
+      if (*flag && key.reserved == "true") refuse_reserved(key, node);
       reading.flag = *flag;
       break;
     }
@@ -158,12 +158,12 @@ Reading read_value(const Key& key, const TomlNode& node) {
   return reading;
 }
 
-Reading read_standard(const Key& key, std::string_view test, Space space) {
-  return read_standard_text(key, standard_of(key, test, space));
+Reading read_default(const Key& key, std::string_view test, Space space) {
+  return read_default_text(key, default_text_of(key, test, space));
 }
 
-Reading read_standard_text(const Key& key, std::string_view standard) {
-  const std::string text(standard);
+Reading read_default_text(const Key& key, std::string_view default_text) {
+  const std::string text(default_text);
   TomlNode node{text, "default", 0};
   if (key.kind == Kind::boolean) node.value = text == "true";
   if (key.kind == Kind::word_or_number && text.find_first_not_of("0123456789.") == std::string::npos)

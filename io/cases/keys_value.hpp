@@ -16,10 +16,10 @@ namespace breccia {
 Reading read_value(const Key&, const TomlNode&);
 
 /// A value written as a default is, for instance by a law.
-Reading read_standard_text(const Key&, std::string_view text);
+Reading read_default_text(const Key&, std::string_view text);
 
 /// The default of a key for a test in the solid or in the plane; the key must have one.
-Reading read_standard(const Key&, std::string_view test, Space space = Space::solid);
+Reading read_default(const Key&, std::string_view test, Space space = Space::three_d);
 
 /// The value as TOML with a readable unit; reads back to the same value.
 std::string write_value(const Key&, const Reading&);

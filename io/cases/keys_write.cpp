@@ -34,7 +34,7 @@ void write_at(std::string& text, const ConfinementLayer& at, const Layer& base) 
 std::string describe_values(const Key& key) {
   switch (key.kind) {
     case Kind::boolean:
-      return key.later == "true" ? "false" : "true, false";
+      return key.reserved == "true" ? "false" : "true, false";
     case Kind::word:
       return quote_list(split_words(key.words));
     case Kind::word_or_number:
@@ -82,9 +82,9 @@ std::string describe_keys(const std::string& test) {
   for (const Key& key : all_keys()) {
     if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) continue;
     if (table_of(key) != table) table = table_of(key), text += fmt::format("\n[{}]\n", table);
-    const std::string_view standard = standard_of(key, test);
+    const std::string_view default_text = default_text_of(key, test);
     text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), describe_values(key),
-                        standard.empty() ? "-" : standard, key.meaning);
+                        default_text.empty() ? "-" : default_text, key.meaning);
     if (key.name == "material.preset" && accepts(*find_key("test.confinement"), test))
       text += fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
                           "a table [[material.at]]: keys of the material for one confinement");

@@ -70,7 +70,7 @@ void move_into_place(const fs::path& aside, const fs::path& file) {
   flush_path(file.has_parent_path() ? file.parent_path() : fs::path("."));
 }
 
-void write_aside(const fs::path& file, std::string_view content) {
+void atomic_write(const fs::path& file, std::string_view content) {
   const fs::path aside = name_aside(file);
   if (const int error = write_file(aside, content); error != 0) {
     remove_quietly(aside);

@@ -64,7 +64,7 @@ bool sum_of(std::ifstream& in, std::size_t bytes, std::uint64_t& value) {
 
 }  // namespace
 
-void seal(const fs::path& file) {
+void append_checksum(const fs::path& file) {
   std::uint64_t value = 0;
   {
     std::ifstream in(file, std::ios::binary);

@@ -6,8 +6,8 @@
 
 namespace breccia {
 
-/// Adds the seal. @throws FileTrouble
-void seal(const std::filesystem::path& file);
+/// Adds the seal. @throws WriteError
+void append_checksum(const std::filesystem::path& file);
 
 /// False when a byte has changed since, or the file is shorter or longer than it was.
 bool is_sealed(const std::filesystem::path& file);

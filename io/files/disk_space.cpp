@@ -9,7 +9,7 @@
 
 namespace breccia {
 
-void claim_space(const std::filesystem::path& path, std::size_t bytes) {
+void preallocate(const std::filesystem::path& path, std::size_t bytes) {
   const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) fail_to_write(path, errno);
   const off_t size = ::lseek(file, 0, SEEK_END);

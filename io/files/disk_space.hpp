@@ -6,7 +6,7 @@
 namespace breccia {
 
 /// Makes a file so much longer, or leaves it as it was. Who writes it cuts off what it did not need.
-/// @throws FileTrouble when the disk has no room, or the file is not there
-void claim_space(const std::filesystem::path& file, std::size_t bytes);
+/// @throws WriteError when the disk has no room, or the file is not there
+void preallocate(const std::filesystem::path& file, std::size_t bytes);
 
 }  // namespace breccia

@@ -25,7 +25,7 @@ bool is_ours(const std::string& relative) {
 void claim_run_folder(const fs::path& folder, bool force) {
   std::error_code trouble;
   if (fs::exists(folder, trouble) && !fs::is_directory(folder, trouble))
-    fail<FileTrouble>("{}: is not a folder; choose another with --out", folder.string());
+    fail<WriteError>("{}: is not a folder; choose another with --out", folder.string());
   std::vector<fs::path> old;
   if (fs::is_directory(folder, trouble))
     for (const auto& entry : fs::recursive_directory_iterator(folder, trouble))
@@ -36,7 +36,7 @@ void claim_run_folder(const fs::path& folder, bool force) {
                    folder.string());
   for (const auto& file : old)
     if (!fs::remove(file, trouble))
-      fail<FileTrouble>("{}: cannot be removed: {}", file.string(), trouble.message());
+      fail<WriteError>("{}: cannot be removed: {}", file.string(), trouble.message());
   make_folder(folder);
 }
 

@@ -31,12 +31,12 @@ std::string_view cure_of(int error) {
 }  // namespace
 
 void fail_to_write(const std::filesystem::path& file, int error) {
-  fail<FileTrouble>("cannot write {}: {}; {}", file.string(), std::generic_category().message(error),
+  fail<WriteError>("cannot write {}: {}; {}", file.string(), std::generic_category().message(error),
                     cure_of(error));
 }
 
 void fail_to_write(const std::filesystem::path& file, std::string_view cause) {
-  fail<FileTrouble>("cannot write {}: {}; check the disk, or choose another folder with --out", file.string(),
+  fail<WriteError>("cannot write {}: {}; check the disk, or choose another folder with --out", file.string(),
                     cause);
 }
 

@@ -7,7 +7,7 @@ namespace breccia {
 
 /// @param file   the file or folder that could not be written
 /// @param error  errno as the system left it
-/// @throws FileTrouble, always
+/// @throws WriteError, always
 [[noreturn]] void fail_to_write(const std::filesystem::path& file, int error);
 
 /// The same when the cause is known only as text.

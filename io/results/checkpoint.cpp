@@ -42,14 +42,14 @@ bool changes_of_contacts(Role role) { return is_kept_of_contacts(role) && role !
 void write_world(hid_t file, const World& w) {
   {
     const h5::Handle group = h5::create_group(file, "particles");
-    const FileOrder order = file_order(w.share, w.particles);
+    const FileOrder order = file_order(w.partition, w.particles);
     write_columns(group, w.particles, order, is_kept, true);
-    if (!w.search.position.empty())
+    if (!w.neighbour_list.position.empty())
       write_rows(group, listed_position, "state", order,
-                 in_file_order<Vec3>(order, [&](Row row) { return w.search.position[row]; }), true);
+                 in_file_order<Vec3>(order, [&](Row row) { return w.neighbour_list.position[row]; }), true);
   }
-  write_columns(h5::create_group(file, "bonds"), w.bonds, file_order(w.share, w.bonds), is_kept, true);
-  const FileOrder order = file_order(w.share, w.contacts);
+  write_columns(h5::create_group(file, "bonds"), w.bonds, file_order(w.partition, w.bonds), is_kept, true);
+  const FileOrder order = file_order(w.partition, w.contacts);
   const h5::Handle contacts = h5::create_group(file, "contacts");
   h5::write_attribute(contacts, "rows", std::uint64_t{order.total});
   write_columns(contacts, w.contacts, order, is_kept_of_contacts, true);
@@ -112,9 +112,9 @@ void read_world(hid_t file, World& w) {
   check_identity(bonds, w.bonds, by_ends);
   read_columns(particles, w.particles, by_gid, changes);
   read_columns(bonds, w.bonds, by_ends, changes);
-  if (!w.search.position.empty()) {
+  if (!w.neighbour_list.position.empty()) {
     const auto positions = read_rows<Vec3>(particles, "listed_position", by_gid.size());
-    for (std::size_t k = 0; k < by_gid.size(); ++k) w.search.position[by_gid[k]] = positions[k];
+    for (std::size_t k = 0; k < by_gid.size(); ++k) w.neighbour_list.position[by_gid[k]] = positions[k];
   }
   read_contacts(h5::open_group(file, "contacts"), w);
 }
@@ -129,7 +129,7 @@ std::size_t bytes_of_numbers(const CheckpointHead& head, const World& w, const L
 }
 std::size_t bytes_of_tables(const World& w) {
   return column_bytes(w.particles) + column_bytes(w.bonds) + column_bytes(w.contacts) +
-         sizeof(Vec3) * w.search.position.size() + (std::size_t{1} << 20);
+         sizeof(Vec3) * w.neighbour_list.position.size() + (std::size_t{1} << 20);
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -161,26 +161,26 @@ std::optional<std::string> read_head(const fs::path& path, CheckpointHead& head)
 void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World& w, const LoadState& state,
                       const LoadResult& result) {
   h5::prepare();
-  const Ranks& ranks = w.share.ranks;
+  const Ranks& ranks = w.partition.ranks;
   const fs::path file = newest(folder), aside = name_aside(file);
   try {
     if (ranks.is_root()) {
       // on a full disk HDF5 may end the whole program when it closes a file: the room is claimed first
-      const World& whole = whole_of(w);
+      const World& whole = root_replica(w);
       if (!std::ofstream(aside, std::ios::trunc)) fail_to_write(aside, errno);
-      claim_space(aside, bytes_of_numbers(head, whole, state, result));
+      preallocate(aside, bytes_of_numbers(head, whole, state, result));
       begin_file(aside, head, whole, state, result);
-      claim_space(aside, bytes_of_tables(whole));
+      preallocate(aside, bytes_of_tables(whole));
     }
-    wait_for_all(ranks);
+    barrier(ranks);
     {
       h5::Handle shared = h5::open_file(aside.string(), ranks);
       write_world(shared, w);
       shared.close("close");
     }
-    wait_for_all(ranks);
+    barrier(ranks);
     if (!ranks.is_root()) return;
-    seal(aside);
+    append_checksum(aside);
     flush_to_disk(aside);
   } catch (const std::exception& error) {
     std::error_code ignored;
@@ -223,7 +223,7 @@ void read_checkpoint(const FoundCheckpoint& found, World& w, LoadState& state, L
   } catch (const BadInput& bad) {
     fail<BadInput>("{}: {}; run without --resume", found.file.string(), bad.what());
   }
-  take_up(w);
+  restore(w);
 }
 
 void remove_checkpoints(const fs::path& folder) {

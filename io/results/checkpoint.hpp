@@ -33,7 +33,7 @@ struct FoundCheckpoint {
 
 /// Replaces the newest checkpoint, which becomes the one before. A kill at any moment, or a full disk, leaves
 /// at least one that is whole. Called on every rank; what is not in the tables is the root's.
-/// @throws FileTrouble; the checkpoints that were there are then as they were, but for the name of the newest
+/// @throws WriteError; the checkpoints that were there are then as they were, but for the name of the newest
 /// where
 ///         the disk fails at the very last
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointHead& head, World& world,

@@ -13,9 +13,9 @@ namespace breccia {
 /// shear_force_N, area_m2, energy_J.
 class CrackFile {
 public:
-  /// @throws FileTrouble
+  /// @throws WriteError
   explicit CrackFile(const std::filesystem::path& file);
-  /// Adds lines and hands them to the system. @throws FileTrouble
+  /// Adds lines and hands them to the system. @throws WriteError
   void add(std::span<const Crack> cracks);
 
 private:

@@ -54,7 +54,7 @@ void write_curve(const std::filesystem::path& file, std::span<const CurveRow> ro
     }
     text += '\n';
   }
-  write_aside(file, text);
+  atomic_write(file, text);
 }
 
 }  // namespace breccia

@@ -52,7 +52,7 @@ std::string explain(const World& w) {
   text += feature_line(
       "new contacts", w.options.new_contacts, w.options.new_contacts,
       w.options.new_contacts
-          ? fmt::format("searched once a pair can meet: nearest are {:.3g} mm apart", w.search.slack * 1e3)
+          ? fmt::format("searched once a pair can meet: nearest are {:.3g} mm apart", w.neighbour_list.slack * 1e3)
           : "surfaces pass through each other");
   text += feature_line("energy ledger", w.options.ledger, w.options.ledger,
                        "where the work goes, and the error of the balance");
@@ -65,7 +65,7 @@ std::string explain(const World& w) {
   const std::string bond_columns = columns_of(w.bonds, bond_bytes);
   text += fmt::format("\n{} particles of {} bytes\n{}", w.particles.size, particle_bytes, particle_columns);
   text += fmt::format("\n{} bonds of {} bytes\n{}", w.bonds.size, bond_bytes, bond_columns);
-  if (!w.narrow_bonds.empty())
+  if (!w.single_bonds.empty())
     text +=
         "\nmixed precision: the loop reads and writes its own copy of the bonds, 4 bytes for each 8 but "
         "those of rest_length\n";

@@ -75,7 +75,7 @@ bool is_worth_deflating(const Dataset& dataset) {
   const std::span values(static_cast<const double*>(dataset.data), rows * dataset.components);
   std::size_t repeats = 0;
   for (std::size_t i = 1; i < values.size(); ++i) repeats += values[i] == values[i - 1] ? 1 : 0;
-  return 4 * sum_of_all(dataset.ranks, repeats) >= dataset.rows * dataset.components;
+  return 4 * all_reduce_sum(dataset.ranks, repeats) >= dataset.rows * dataset.components;
 }
 
 /// Every rank its rows, all at once: a chunk that two of them share is put together on one.

@@ -36,7 +36,7 @@ void write_impact_curve(const std::filesystem::path& file, std::span<const Impac
       fmt::format_to(out, "{}{}", &field == fields.begin() ? "" : ",", row.*field.second);
     text += '\n';
   }
-  write_aside(file, text);
+  atomic_write(file, text);
 }
 
 std::vector<std::string> impact_warnings(const ImpactResult& result) {
@@ -78,7 +78,7 @@ void write_impact_summary(const std::filesystem::path& file, const ImpactScene& 
                  {"threads", scene.threads},
                  {"ranks", 1},
                  {"runs", Json::array({std::move(run)})}};
-  write_aside(file, all.dump(2) + '\n');
+  atomic_write(file, all.dump(2) + '\n');
 }
 
 std::string format_impact_table(const ImpactResult& result) {

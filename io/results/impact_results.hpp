@@ -8,10 +8,10 @@
 
 namespace breccia {
 
-/// curve-0.csv: one line per row, names as in ImpactRow. @throws FileTrouble
+/// curve-0.csv: one line per row, names as in ImpactRow. @throws WriteError
 void write_impact_curve(const std::filesystem::path& file, std::span<const ImpactRow> rows);
 
-/// summary.json: steps, times, energies and what became of each particle. @throws FileTrouble
+/// summary.json: steps, times, energies and what became of each particle. @throws WriteError
 void write_impact_summary(const std::filesystem::path& file, const ImpactScene& scene,
                           const ImpactResult& result);
 

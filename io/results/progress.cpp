@@ -43,7 +43,7 @@ void tell(Progress& p, const World& w, int stage, double fraction, const CurveRo
   if (p.quiet || seconds_since(p.last) < pause) return;
   p.last = steady_clock::now();
   const double elapsed = seconds_since(p.start);
-  const World& whole = w.share.whole ? *w.share.whole : w;
+  const World& whole = w.partition.whole ? *w.partition.whole : w;
   const double speed = static_cast<double>(whole.bonds.size) * static_cast<double>(w.step) / elapsed;
   const std::string left = fraction > 0.01 && stage == 2 ? clock_time(elapsed * (1.0 / fraction - 1.0)) : "-";
   const std::string line = fmt::format(

@@ -48,7 +48,7 @@ void add_to_pvd(const std::filesystem::path& file, const PvdEntry& entry) {
       "</Collection>\n</VTKFile>\n",
       frames_below(file, entry.frame), frame_mark, entry.frame, entry.time_s, entry.particles, entry.time_s,
       entry.bonds);
-  write_aside(file, text);
+  atomic_write(file, text);
 }
 
 }  // namespace breccia

@@ -12,7 +12,7 @@ struct PvdEntry {
 };
 
 /// Adds a frame: the file is rewritten with the frames below `entry.frame` that it has, and this one.
-/// @throws FileTrouble
+/// @throws WriteError
 void add_to_pvd(const std::filesystem::path& file, const PvdEntry& entry);
 
 }  // namespace breccia

@@ -40,7 +40,7 @@ std::size_t bytes_of(const Table& table, std::size_t rows, bool (*wanted)(Role))
   return bytes;
 }
 
-std::size_t own_rows(const Share& share) { return share.own().last - share.own().first; }
+std::size_t owned_rows(const Partition& partition) { return partition.owned().last - partition.owned().first; }
 
 constexpr std::size_t bytes_of_group = 65536;  ///< of the groups around the datasets, and their attributes
 constexpr unsigned usual_runs = 64, usual_frames = 128;  ///< more are possible, at a little more risk (below)
@@ -58,9 +58,9 @@ template <class Write>
 void append(const fs::path& path, const Ranks& ranks, const std::string& parent, const std::string& name,
             std::size_t bytes, unsigned links, Write&& write) {
   h5::prepare();
-  bytes = sum_of_all(ranks, bytes);
-  if (ranks.is_root()) claim_space(path, bytes + bytes_of_group);
-  wait_for_all(ranks);
+  bytes = all_reduce_sum(ranks, bytes);
+  if (ranks.is_root()) preallocate(path, bytes + bytes_of_group);
+  barrier(ranks);
   try {
     h5::Handle file = h5::open_file(path.string(), ranks);
     {
@@ -83,10 +83,10 @@ std::string name_of_run(int run) { return fmt::format("run-{}", run); }
 void create_results(const fs::path& file, std::string_view case_text) {
   h5::prepare();
   const fs::path aside = name_aside(file);
-  write_aside(aside, "");
+  atomic_write(aside, "");
   try {
     // a full disk is better told by the system than by HDF5
-    claim_space(aside, case_text.size() + bytes_of_group);
+    preallocate(aside, case_text.size() + bytes_of_group);
     h5::Handle made = h5::create_file(aside.string(), usual_runs);
     h5::write_attribute(made, "version", std::string_view(BRECCIA_VERSION));
     h5::write_attribute(made, "case", case_text);
@@ -101,13 +101,13 @@ void create_results(const fs::path& file, std::string_view case_text) {
 }
 
 void begin_run(const fs::path& file, int run, std::span<const std::pair<std::string, double>> attributes,
-               const Share& share, const ParticleTable& particles, const BondTable& bonds) {
-  const std::size_t bytes = bytes_of(particles, own_rows(share), stays) + bytes_of(bonds, bonds.size, stays);
-  append(file, share.ranks, "/", name_of_run(run), bytes, usual_frames, [&](hid_t group) {
+               const Partition& partition, const ParticleTable& particles, const BondTable& bonds) {
+  const std::size_t bytes = bytes_of(particles, owned_rows(partition), stays) + bytes_of(bonds, bonds.size, stays);
+  append(file, partition.ranks, "/", name_of_run(run), bytes, usual_frames, [&](hid_t group) {
     for (const auto& [key, value] : attributes) h5::write_attribute(group, key.c_str(), value);
-    write_columns(h5::create_group(group, "particles"), particles, file_order(share, particles), stays,
+    write_columns(h5::create_group(group, "particles"), particles, file_order(partition, particles), stays,
                   false);
-    write_columns(h5::create_group(group, "bonds"), bonds, file_order(share, bonds), stays, false);
+    write_columns(h5::create_group(group, "bonds"), bonds, file_order(partition, bonds), stays, false);
   });
 }
 
@@ -116,23 +116,23 @@ bool has_run(const fs::path& file, int run) {
   try {
     return h5::has_link(h5::open_to_read(file.string()), name_of_run(run));
   } catch (const h5::Failure& failure) {
-    fail<FileTrouble>("{}: cannot be read: {}", file.string(), failure.what());
+    fail<WriteError>("{}: cannot be read: {}", file.string(), failure.what());
   }
 }
 
-void append_frame(const fs::path& file, int run, int frame, const FrameStamp& stamp, const Share& share,
+void append_frame(const fs::path& file, int run, int frame, const FrameStamp& stamp, const Partition& partition,
                   const ParticleTable& particles, const BondTable& bonds) {
   const std::string name = fmt::format("frame-{:03}", frame);
-  const std::size_t bytes = bytes_of(particles, own_rows(share), changes) +
+  const std::size_t bytes = bytes_of(particles, owned_rows(partition), changes) +
                             bytes_of(bonds, bonds.size, changes) + bonds.size + 8192;
-  append(file, share.ranks, name_of_run(run), name, bytes, 2, [&](hid_t group) {
+  append(file, partition.ranks, name_of_run(run), name, bytes, 2, [&](hid_t group) {
     h5::write_attribute(group, "time_s", stamp.time_s);
     h5::write_attribute(group, "step", stamp.step);
     h5::write_attribute(group, "axial_strain", stamp.axial_strain);
-    write_columns(h5::create_group(group, "particles"), particles, file_order(share, particles), changes,
+    write_columns(h5::create_group(group, "particles"), particles, file_order(partition, particles), changes,
                   false);
     const h5::Handle bond_group = h5::create_group(group, "bonds");
-    const FileOrder order = file_order(share, bonds);
+    const FileOrder order = file_order(partition, bonds);
     write_columns(bond_group, bonds, order, changes, false);
     write_states(bond_group, bonds, order);
   });

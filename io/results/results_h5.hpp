@@ -31,26 +31,26 @@ struct FrameStamp {
 
 /// Makes the file, with no run in it; one that is there is replaced.
 /// @param case_text  the resolved case
-/// @throws FileTrouble; an existing file is then as it was
+/// @throws WriteError; an existing file is then as it was
 void create_results(const std::filesystem::path& file, std::string_view case_text);
 
 /// Adds /run-K with what stays the same during the run; a run of that number that is there is replaced.
 /// Called on every rank.
 /// @param attributes  of the run: names with their units, e.g. {"confinement_Pa", 4.5e6}
-/// @param share       which rows this rank owns
-/// @throws FileTrouble; the runs before it stay readable, on a full disk too
+/// @param partition       which rows this rank owns
+/// @throws WriteError; the runs before it stay readable, on a full disk too
 void begin_run(const std::filesystem::path& file, int run,
-               std::span<const std::pair<std::string, double>> attributes, const Share& share,
+               std::span<const std::pair<std::string, double>> attributes, const Partition& partition,
                const ParticleTable& particles, const BondTable& bonds);
 
-/// True when the file has /run-K. @throws FileTrouble when it cannot be read
+/// True when the file has /run-K. @throws WriteError when it cannot be read
 bool has_run(const std::filesystem::path& file, int run);
 
 /// Adds /run-K/frame-NNN; a frame of that number that is there, from before a resume, is replaced. The file
 /// is opened and closed in here: between frames it is whole, whatever becomes of the process. Called on every
 /// rank.
-/// @throws FileTrouble; the frames before it stay readable, on a full disk too
+/// @throws WriteError; the frames before it stay readable, on a full disk too
 void append_frame(const std::filesystem::path& file, int run, int frame, const FrameStamp& stamp,
-                  const Share& share, const ParticleTable& particles, const BondTable& bonds);
+                  const Partition& partition, const ParticleTable& particles, const BondTable& bonds);
 
 }  // namespace breccia

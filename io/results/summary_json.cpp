@@ -185,7 +185,7 @@ void write_summary(const std::filesystem::path& file, const SeriesSummary& serie
   if (series.mohr_coulomb) all["mohr_coulomb"] = of(*series.mohr_coulomb);
   all["runs"] = std::move(runs);
   // replace: a text that is not UTF-8 (a file's name) must not lose the results of hours
-  write_aside(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace breccia

@@ -9,7 +9,7 @@
 namespace breccia {
 
 /// Writes the summary; keys are the names of the fields, what is absent or not finite is null.
-/// @throws FileTrouble
+/// @throws WriteError
 void write_summary(const std::filesystem::path& file, const SeriesSummary& series);
 
 /// The runs as JSON, and back: what a checkpoint keeps of the runs before it.

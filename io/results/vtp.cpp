@@ -94,7 +94,7 @@ Array counting(std::string_view name, std::size_t count, std::int32_t first, std
 
 void check_count(const std::filesystem::path& file, std::size_t count) {
   if (count > std::numeric_limits<std::int32_t>::max() / 2) {
-    fail<FileTrouble>(
+    fail<WriteError>(
         "cannot write {}: {} rows are more than a .vtp with 32-bit cells holds; set output.frames = 0",
         file.string(), count);
   }
@@ -156,7 +156,7 @@ void write_particles_vtp(const std::filesystem::path& file, const ParticleTable&
     if (info.name == "position" || info.name == "reference_position") return;
     add_column(picture.point_data, info, column, rows);
   });
-  write_aside(file, text_of(picture));
+  atomic_write(file, text_of(picture));
 }
 
 void write_bonds_vtp(const std::filesystem::path& file, const ParticleTable& particles,
@@ -187,7 +187,7 @@ void write_bonds_vtp(const std::filesystem::path& file, const ParticleTable& par
   bonds.for_each_column([&](const ColumnInfo& info, const auto& column) {
     if (!info.name.starts_with("shear_")) add_column(picture.cell_data, info, column, rows);
   });
-  write_aside(file, text_of(picture));
+  atomic_write(file, text_of(picture));
 }
 
 void write_frame_vtp(const std::filesystem::path& frames, int run, int frame, double time_s,

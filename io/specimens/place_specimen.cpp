@@ -75,7 +75,7 @@ void check_coincident(const Specimen& specimen) {
 /// How far a centre lies outside the body; negative inside.
 double outside(const Vec3& p, const Body& body, Space space) {
   const double height = std::abs(p.z) - body.height / 2;
-  if (space == Space::plane)
+  if (space == Space::two_d)
     return body.shape == Shape::box ? std::max(height, std::abs(p.x) - body.diameter / 2)
                                     : std::hypot(p.x, p.z) - body.diameter / 2;
   const double across = body.shape == Shape::box
@@ -86,7 +86,7 @@ double outside(const Vec3& p, const Body& body, Space space) {
 
 std::string describe(const Body& body, Space space) {
   const auto length = [](double value) { return format_quantity(value, dimension::length); };
-  if (space == Space::plane)
+  if (space == Space::two_d)
     return body.shape == Shape::box
                ? fmt::format("rectangle {} x {}", length(body.diameter), length(body.height))
                : fmt::format("disc D {}", length(body.diameter));
@@ -102,7 +102,7 @@ std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * m
 std::optional<double> times_nominal(const Specimen& specimen, const Body& body, Space space) {
   const Box box = box_around(specimen, {});
   const Vec3 extent = box.high - box.low;
-  const bool is_box = body.shape == Shape::box, plane = space == Space::plane;
+  const bool is_box = body.shape == Shape::box, plane = space == Space::two_d;
   const double height = plane && !is_box ? body.diameter : body.height;
   const double depth = is_box ? body.depth : body.diameter;
   const double x = extent.x / body.diameter, z = extent.z / height, y = plane ? x : extent.y / depth;
@@ -167,15 +167,15 @@ void check_inside(const Specimen& specimen, const Body& body, Space space) {
 void check_filled(const Specimen& specimen, const Body& body, Space space) {
   const std::string hint = unit_hint(specimen, body, space);
   const double smallest =
-      std::min({body.diameter, body.shape == Shape::box && space != Space::plane ? body.depth : body.diameter,
-                space == Space::plane && body.shape != Shape::box ? body.diameter : body.height});
+      std::min({body.diameter, body.shape == Shape::box && space != Space::two_d ? body.depth : body.diameter,
+                space == Space::two_d && body.shape != Shape::box ? body.diameter : body.height});
   for (const SpecimenSphere& s : specimen.spheres)
     if (2.0 * s.radius > 1.3 * smallest)
       fail<BadInput>("{}: sphere {} has radius {}, too large for the {}; check the unit of its radius{}",
                      place_of(specimen, s), s.id, millimetres(s.radius), describe(body, space), hint);
   const Box box = box_around(specimen, {});
   const Vec3 extent = box.high - box.low;
-  const double height = space == Space::plane && body.shape != Shape::box ? body.diameter : body.height;
+  const double height = space == Space::two_d && body.shape != Shape::box ? body.diameter : body.height;
   if (extent.x < 0.5 * body.diameter && extent.z < 0.5 * height)
     fail<BadInput>(
         "{}: all spheres lie within {} x {}, in a {}; check specimen.diameter and height, and the unit "
@@ -211,7 +211,7 @@ Vec3 middle_of(const Specimen& specimen, const std::vector<char>& of_body) {
 Specimen place_specimen(Specimen specimen, char axis, std::optional<Vec3> centre, Space space,
                         const std::vector<char>& of_body) {
   const Vec3 middle = centre ? *centre : middle_of(specimen, of_body);
-  if (space == Space::plane && !specimen.spheres.empty()) {
+  if (space == Space::two_d && !specimen.spheres.empty()) {
     const char flat = flat_coordinate(specimen, axis);
     const char width = static_cast<char>('x' + 'y' + 'z' - axis - flat);
     for (SpecimenSphere& sphere : specimen.spheres) {
@@ -226,7 +226,7 @@ Specimen place_specimen(Specimen specimen, char axis, std::optional<Vec3> centre
 }
 
 Vec3 way_in_file(const Specimen& as_read, const Vec3& way, char axis, Space space) {
-  if (space != Space::plane) return turned(way, axis == 'y' ? 'x' : axis == 'x' ? 'y' : 'z');
+  if (space != Space::two_d) return turned(way, axis == 'y' ? 'x' : axis == 'x' ? 'y' : 'z');
   const char flat = flat_coordinate(as_read, axis);
   const auto of = [&](char coordinate) {
     return coordinate == axis ? way.z : coordinate == flat ? 0.0 : way.x;

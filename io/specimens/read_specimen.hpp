@@ -26,7 +26,7 @@ Specimen read_specimen(const std::filesystem::path& file);
 /// @throws BadInput in the plane: centres do not lie in one plane along the axis, to 1e-9 of the specimen's
 /// size
 /// @param of_body  per sphere, 0 where it does not belong to the body whose box is meant; empty: all do
-Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {}, Space space = Space::solid,
+Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {}, Space space = Space::three_d,
                         const std::vector<char>& of_body = {});
 
 /// The middle of the box around the spheres that belong to the body, as they lie in the file, m.
@@ -48,10 +48,10 @@ Specimen stand_disc(Specimen, char axis, std::optional<char> load_axis);
 /// Checks a specimen that is in place.
 /// @throws BadInput: no sphere, two spheres with one centre, a centre outside the body by more than 2 % of
 /// the diameter
-void check_specimen(const Specimen&, const Body&, Space space = Space::solid);
+void check_specimen(const Specimen&, const Body&, Space space = Space::three_d);
 
 /// Writes spheres as .csv such that they read back bit for bit; aside first, then renamed.
-/// @throws FileTrouble
+/// @throws WriteError
 void write_specimen_csv(const std::filesystem::path& file, const Specimen&);
 
 }  // namespace breccia

@@ -25,7 +25,7 @@ void write_specimen_csv(const std::filesystem::path& file, const Specimen& speci
   }
   const std::filesystem::path aside = file.string() + ".part";
   std::FILE* stream = std::fopen(aside.c_str(), "wb");
-  if (!stream) fail<FileTrouble>("{}: cannot be written: {}", file.string(), std::strerror(errno));
+  if (!stream) fail<WriteError>("{}: cannot be written: {}", file.string(), std::strerror(errno));
   const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
   const bool closed = std::fclose(stream) == 0;  // a full disk may show only here
   std::error_code trouble;
@@ -34,7 +34,7 @@ void write_specimen_csv(const std::filesystem::path& file, const Specimen& speci
   const std::string cause = trouble ? trouble.message() : std::strerror(errno);
   std::error_code ignored;
   std::filesystem::remove(aside, ignored);
-  fail<FileTrouble>("{}: cannot be written: {}", file.string(), cause);
+  fail<WriteError>("{}: cannot be written: {}", file.string(), cause);
 }
 
 }  // namespace breccia

@@ -12,7 +12,7 @@ struct BondAction {
   R along;         ///< N, the same with the dashpot
   R shear_factor;  ///< g of k_s
   Vec<R> shear;    ///< N, on lo
-  Vec<R> carried;  ///< N, the history of shear as it came into the step, turned with the pair
+  Vec<R> rotated;  ///< N, the history of shear as it came into the step, turned with the pair
 };
 
 /// N, on lo.
@@ -26,8 +26,8 @@ template <Features features, class Law, class R>
 inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, const Pair<R>& pair,
                                  BondHistory<R>& h) {
   const R u = pair.distance - bond.rest_length;  // (P26)
-  const Vec<R> carried = carry<features.rotation>(h.shear, pair);
-  h.shear = carried + (R(law.shear_ratio) * bond.stiffness) * pair.slip;  // (B20) (P37)
+  const Vec<R> rotated = rotate_with_pair<features.rotation>(h.shear, pair);
+  h.shear = rotated + (R(law.shear_ratio) * bond.stiffness) * pair.slip;  // (B20) (P37)
   R elastic = u;
   if constexpr (features.plasticity) {
     h.plastic_stretch = plastic_stretch(law, bond, u, h.plastic_stretch);
@@ -49,7 +49,7 @@ inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, c
       total = select(broken && total > R(0.0), R(0.0), total);
     }
   }
-  return {f.normal, total, f.shear_factor, f.shear, carried};
+  return {f.normal, total, f.shear_factor, f.shear, rotated};
 }
 
 /// The force alone.

@@ -1,7 +1,7 @@
 // What a bond law is made of. A law is a struct of constants with
 //   name, takes      its word in a case, and the shared keys of [material] that it uses
 //   own              keys that it alone has
-//   standards        what a case with this law gets where it does not say otherwise ("bonds.area", ...)
+//   defaults        what a case with this law gets where it does not say otherwise ("bonds.area", ...)
 //   feature_sets     the scenes that a kernel is built for, from the leanest to the fullest
 //   of(material)     its constants from a material
 //   young, shear_ratio, failure
@@ -20,13 +20,13 @@ namespace breccia {
 struct LawParameter {
   std::string_view key, unit;  ///< unit: SI, "1" for a number
   double low = 0;              ///< smallest value that makes sense
-  std::string_view standard;   ///< default as one writes it; empty: must be given
+  std::string_view default_text;   ///< default as one writes it; empty: must be given
   std::string_view meaning;
   bool above = false;  ///< low itself makes no sense
 };
 
 /// What a case gets where it does not say otherwise.
-struct LawStandard {
+struct LawDefault {
   std::string_view key, value;
 };
 

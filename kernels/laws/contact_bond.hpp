@@ -19,7 +19,7 @@ struct ContactBondLaw {
       LawParameter{"normal_strength", "N", 0.0, "", "n_b: tension that breaks a bond", true},
       LawParameter{"bond_shear_strength", "N", 0.0, "", "s_b: shear force that breaks a bond", true},
   };
-  static constexpr std::array standards{LawStandard{"bonds.alpha", "1"}};
+  static constexpr std::array defaults{LawDefault{"bonds.alpha", "1"}};
   static constexpr std::array feature_sets{Features{.plasticity = false}};
 
   double young = 0;        ///< Pa, only for what needs a wave speed

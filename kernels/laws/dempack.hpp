@@ -15,7 +15,7 @@ struct DempackLaw {
       "friction_static friction_dynamic tensile_strength shear_strength limit_compressive_stress "
       "stiffness_reduction damage_normal damage_shear fracture_energy_normal fracture_energy_shear criterion";
   static constexpr std::array<LawParameter, 0> own{};
-  static constexpr std::array<LawStandard, 0> standards{};
+  static constexpr std::array<LawDefault, 0> defaults{};
   static constexpr std::array feature_sets{
       Features{.plasticity = false, .breakage = false},
       Features{.plasticity = false},

@@ -20,7 +20,7 @@ struct ExponentialLaw {
       LawParameter{"hardening_rate", "1", 0.0, "16", "gamma_2: growth of K2 with strain"},
       LawParameter{"hardening_floor", "1", 0.0, "0.275", "gamma_3: of the constant part of K2/k_n"},
   };
-  static constexpr std::array<LawStandard, 0> standards{};
+  static constexpr std::array<LawDefault, 0> defaults{};
   static constexpr std::array feature_sets{Features{.criterion = Criterion::mohr_coulomb}};
 
   double young = 0;        ///< Pa

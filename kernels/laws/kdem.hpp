@@ -17,8 +17,8 @@ struct KdemLaw {
       LawParameter{"normal_factor", "1", 0.0, "1", "alpha of the thesis' eq. 5.7, on k_n", true},
       LawParameter{"shear_factor", "1", 0.0, "1", "beta of the thesis' eq. 5.7, on k_s"},
   };
-  static constexpr std::array standards{LawStandard{"bonds.area", "polyhedron"},
-                                        LawStandard{"bonds.alpha", "1"}};
+  static constexpr std::array defaults{LawDefault{"bonds.area", "polyhedron"},
+                                        LawDefault{"bonds.alpha", "1"}};
   static constexpr std::array feature_sets{Features{.plasticity = false}};
 
   double young = 0;        ///< Pa, alpha E

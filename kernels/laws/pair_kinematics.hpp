@@ -79,7 +79,7 @@ inline R elongation(const Ends<R>& ends, const Pair<R>& p, double dt) {
 /// Carries a tangential vector along with the pair: the turn of the normal, then the mean twist about it.
 /// Its length does not change. (B5)
 template <bool rotation, class R>
-inline Vec<R> carry(const Vec<R>& f, const Pair<R>& p) {
+inline Vec<R> rotate_with_pair(const Vec<R>& f, const Pair<R>& p) {
   const R along = R(0.5) * dot(f, p.normal) * inverse_near_one(R(0.5) + R(0.5) * p.turn_cosine);
   Vec<R> turned = f - along * (p.normal_before + p.normal);
   if constexpr (rotation) {

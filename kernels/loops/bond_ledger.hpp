@@ -59,9 +59,9 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
 
   const R k_s = R(law.shear_ratio) * bond.stiffness;
   const R compliance = select(k_s > zero, half / k_s, zero);  // none of padding
-  const R shear_work = half * dot(last.shear_factor * action.carried + action.shear, pair.slip);
+  const R shear_work = half * dot(last.shear_factor * action.rotated + action.shear, pair.slip);
   const R shear_kept = compliance * (action.shear_factor * dot(h.shear, h.shear) -
-                                     last.shear_factor * dot(action.carried, action.carried));
+                                     last.shear_factor * dot(action.rotated, action.rotated));
   R shear_loss = shear_work - shear_kept;  // (B53)
   if constexpr (features.plasticity)
     loss.plastic = mean_spring * (h.plastic_stretch - before.plastic_stretch);  // (B51)

@@ -18,7 +18,7 @@ namespace {
 
 inline constexpr std::size_t ahead = 32;  // bonds, some 400 ns
 inline constexpr std::size_t stride = sizeof(BondLoad) / sizeof(Vec3);
-static_assert(bond_batch % width == 0 && LoadBlock::capacity % bond_batch == 0);
+static_assert(bond_batch % width == 0 && ForceBuffer::capacity % bond_batch == 0);
 
 using Column = BondColumn;
 
@@ -187,9 +187,9 @@ template <Features features, bool ledger, class Law, class Bonds>
                                              const Bonds& bonds, std::size_t first, std::size_t last,
                                              const Scatter& to, BreakNotes* notes,
                                              std::span<BondLosses<double>> losses = {}) {
-  LoadBlock block;
+  ForceBuffer block;
   while (first < last) {
-    const std::size_t count = last - first < LoadBlock::capacity ? last - first : LoadBlock::capacity;
+    const std::size_t count = last - first < ForceBuffer::capacity ? last - first : ForceBuffer::capacity;
     [[maybe_unused]] BondLosses<Lanes> loss;
     for (std::size_t k = 0; k < count; k += width) {
       const std::size_t b = first + k;
@@ -214,7 +214,7 @@ template <Features features, bool ledger, class Law, class Bonds>
       if constexpr (features.rotation)
         store_rows(pair.distance * cross(pair.normal, force), &block.load[k].moment, stride);
     }
-    if constexpr (ledger) add_lanes(loss, losses[first / LoadBlock::capacity]);
+    if constexpr (ledger) add_lanes(loss, losses[first / ForceBuffer::capacity]);
     scatter_block(to, block, first, count);
     first += count;
   }

@@ -52,7 +52,7 @@ struct BondPassHistory {
 };
 
 /// A bond that broke in this step, as it was before.
-struct FreshBreak {
+struct BreakEvent {
   Index bond;
   Vec3 shear;  ///< N, the history, as of the other three
   double plastic_stretch, damage_normal, damage_shear;
@@ -60,11 +60,11 @@ struct FreshBreak {
 
 /// Where a range notes its fresh breaks; those beyond the room are counted only.
 struct BreakNotes {
-  std::span<FreshBreak> room;
+  std::span<BreakEvent> room;
   std::size_t count = 0;
 };
 
-/// Bonds [first, last), both multiples of `bond_batch`, `first` of LoadBlock::capacity where there is a
+/// Bonds [first, last), both multiples of `bond_batch`, `first` of ForceBuffer::capacity where there is a
 /// ledger. Breaks are noted unless the pointer is null.
 using BondPass = void (*)(const BondPassIn&, const BondPassHistory&, std::size_t first, std::size_t last,
                           const Scatter&, BreakNotes*);

@@ -16,20 +16,20 @@ Ends<double> ends_of_contact(const ContactPassIn& in, std::size_t c) {
 }
 
 /// Books the step of a contact: trapezoids, with the forces that the step before ended with.
-/// @param carried  N, friction force as it came into the step, turned with the pair
+/// @param rotated  N, friction force as it came into the step, turned with the pair
 /// @param along    N, force along the normal with the dashpot; tension positive
 void book(const ContactPassIn& in, const ContactPassHistory& history, std::size_t c, const Ends<double>& ends,
-          const Pair<double>& pair, const Vec3& carried, double along) {
+          const Pair<double>& pair, const Vec3& rotated, double along) {
   const ContactConstants contact = constants_of_contact(in, c);
   const double overlap = larger(0.0, history.free_length[c] - pair.distance);
   const double viscous = along + contact.stiffness * overlap;
   const Vec3& shear = history.shear_force[c];
-  ContactLosses& loss = history.losses[c / LoadBlock::capacity];
+  ContactLosses& loss = history.losses[c / ForceBuffer::capacity];
   // (B55)
   loss.viscous += 0.5 * (history.viscous_force[c] + viscous) * elongation(ends, pair, in.dt);
   const double k_s = contact.shear_ratio * contact.stiffness;
-  const double kept = k_s > 0.0 ? 0.5 * (dot(shear, shear) - dot(carried, carried)) / k_s : 0.0;
-  loss.friction += 0.5 * dot(carried + shear, pair.slip) - kept;  // (B53)
+  const double kept = k_s > 0.0 ? 0.5 * (dot(shear, shear) - dot(rotated, rotated)) / k_s : 0.0;
+  loss.friction += 0.5 * dot(rotated + shear, pair.slip) - kept;  // (B53)
   history.viscous_force[c] = viscous;
 }
 
@@ -39,11 +39,11 @@ Vec3 pressed_force(const ContactPassIn& in, const ContactPassHistory& history, s
   const Pair<double> pair = relative_motion<rotation>(ends, rotation ? in.arm_offset[c] : 0.0, in.dt);
   Vec3& shear = history.shear_force[c];
   const ContactConstants contact = constants_of_contact(in, c);
-  const Vec3 carried = carry<rotation>(shear, pair);
-  shear = carried + (contact.shear_ratio * contact.stiffness) * pair.slip;
+  const Vec3 rotated = rotate_with_pair<rotation>(shear, pair);
+  shear = rotated + (contact.shear_ratio * contact.stiffness) * pair.slip;
   const Vec3 force = linear_contact_force(contact, history.free_length[c] - pair.distance, pair, shear);
   moment = pair.distance * cross(pair.normal, force);
-  if (!history.losses.empty()) book(in, history, c, ends, pair, carried, dot(force - shear, pair.normal));
+  if (!history.losses.empty()) book(in, history, c, ends, pair, rotated, dot(force - shear, pair.normal));
   return force;
 }
 
@@ -54,9 +54,9 @@ void release(const ContactPassIn& in, const ContactPassHistory& history, std::si
   if (!history.losses.empty() && (history.viscous_force[c] != 0.0 || !(shear == Vec3{}))) {
     const Ends<double> ends = ends_of_contact<rotation>(in, c);
     const Pair<double> pair = relative_motion<rotation>(ends, rotation ? in.arm_offset[c] : 0.0, in.dt);
-    const Vec3 carried = carry<rotation>(shear, pair);
+    const Vec3 rotated = rotate_with_pair<rotation>(shear, pair);
     shear = {};
-    book(in, history, c, ends, pair, carried, 0.0);
+    book(in, history, c, ends, pair, rotated, 0.0);
   }
   shear = {};
 }
@@ -65,9 +65,9 @@ void release(const ContactPassIn& in, const ContactPassHistory& history, std::si
 
 void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, std::size_t first,
                   std::size_t last, const Scatter& to) {
-  LoadBlock block;
+  ForceBuffer block;
   while (first < last) {
-    const std::size_t count = last - first < LoadBlock::capacity ? last - first : LoadBlock::capacity;
+    const std::size_t count = last - first < ForceBuffer::capacity ? last - first : ForceBuffer::capacity;
     bool pressed = false;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t c = first + k;

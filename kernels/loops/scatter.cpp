@@ -4,7 +4,7 @@
 
 namespace breccia {
 
-void scatter(const Scatter& to, const LoadBlock& block, std::size_t first, std::size_t count) {
+void scatter(const Scatter& to, const ForceBuffer& block, std::size_t first, std::size_t count) {
   scatter_block(to, block, first, count);
 }
 

@@ -18,7 +18,7 @@ struct alignas(64) BondLoad {
 };
 
 /// Of up to 64 consecutive bonds, as the law leaves them.
-struct LoadBlock {
+struct ForceBuffer {
   static constexpr std::size_t capacity = 64;
   BondLoad load[capacity];
 };
@@ -42,6 +42,6 @@ struct Scatter {
 };
 
 /// Adds `count` loads of bonds [first, first + count).
-void scatter(const Scatter& to, const LoadBlock& block, std::size_t first, std::size_t count);
+void scatter(const Scatter& to, const ForceBuffer& block, std::size_t first, std::size_t count);
 
 }  // namespace breccia

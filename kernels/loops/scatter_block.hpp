@@ -34,7 +34,7 @@ struct AtomicAdd {
 };
 
 template <bool torques, class Add>
-[[gnu::always_inline]] inline void add_block(const Scatter& to, const LoadBlock& block, std::size_t first,
+[[gnu::always_inline]] inline void add_block(const Scatter& to, const ForceBuffer& block, std::size_t first,
                                              std::size_t count, const Add& add) {
   const Strided<Vec3> forces = to.force, moments{to.torque.data(), to.torque.size(), to.force.stride()};
   for (std::size_t k = 0; k < count; ++k) {
@@ -50,14 +50,14 @@ template <bool torques, class Add>
   }
 }
 
-inline void keep_block(const Scatter& to, const LoadBlock& block, std::size_t first, std::size_t count) {
+inline void keep_block(const Scatter& to, const ForceBuffer& block, std::size_t first, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
     four(to.bond_load[first + k].force) = four(block.load[k].force);
     four(to.bond_load[first + k].moment) = four(block.load[k].moment);
   }
 }
 
-inline void scatter_block(const Scatter& to, const LoadBlock& block, std::size_t first, std::size_t count) {
+inline void scatter_block(const Scatter& to, const ForceBuffer& block, std::size_t first, std::size_t count) {
   const bool torques = !to.torque.empty();
   if (to.mode == ScatterMode::column)
     keep_block(to, block, first, count);

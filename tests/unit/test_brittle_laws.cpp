@@ -77,7 +77,7 @@ Assembly pairs(const std::vector<std::pair<double, double>>& radii, const Featur
 }  // namespace
 
 TEST_CASE("kdem: factors alpha and beta on k_n = E A/d0 and k_s = E A/(2 (1 + nu) d0) [(S5.7) rel 1e-13]") {
-  const Assembly a = pairs({{0.01, 0.01}, {0.004, 0.01}, {0.003, 0.002}}, features, Space::solid);
+  const Assembly a = pairs({{0.01, 0.01}, {0.004, 0.01}, {0.003, 0.002}}, features, Space::three_d);
   AreaFactor factor;
   factor.shear_ratio = paper_shear_ratio(0.2);
   WorldOptions o;
@@ -123,7 +123,7 @@ TEST_CASE(
 }
 
 TEST_CASE("contact bond: k_n and k_s and the damping's k_n do not depend on the radii [(B28) exact]") {
-  const Assembly a = pairs({{0.01, 0.01}, {0.004, 0.01}, {0.003, 0.002}}, features, Space::plane);
+  const Assembly a = pairs({{0.01, 0.01}, {0.004, 0.01}, {0.003, 0.002}}, features, Space::two_d);
   WorldOptions o;
   o.features = features;
   for (const double alpha : {1.0, 3.0}) {  // nor on any factor of areas

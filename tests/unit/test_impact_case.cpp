@@ -139,7 +139,7 @@ TEST_CASE("impact case: every declaration is whole and the printed reference lis
       INFO(field.key.name);
       CHECK(!field.key.meaning.empty());
       CHECK(bool(field.store));
-      CHECK(!(field.required && !field.key.standard.empty()));
+      CHECK(!(field.required && !field.key.default_text.empty()));
       const std::string word(field.key.name.substr(field.key.name.rfind('.') + 1));
       CHECK(help.find("  " + word + " ") != std::string::npos);
     }

@@ -181,11 +181,11 @@ TEST_CASE("time step: a packing's estimate lies within 2.5 % below the converged
       const double exact = exact_time_step(scene_of(w));
       CHECK(w.critical_dt < exact);
       CHECK(w.critical_dt > 0.975 * exact);
-      CHECK(look_at_step(scene_of(w), exact).number == doctest::Approx(1).epsilon(0.02));
+      CHECK(estimate_step(scene_of(w), exact).number == doctest::Approx(1).epsilon(0.02));
       for (const double beyond : {1.02, 1.15}) {
-        const StepLook look = look_at_step(scene_of(w), beyond * exact);
-        CHECK(look_at_step(scene_of(w), beyond * exact, 1.0).critical == look.critical);  // more than enough
-        const StepLook enough = look_at_step(scene_of(w), beyond * exact, 1.5);
+        const StepEstimate look = estimate_step(scene_of(w), beyond * exact);
+        CHECK(estimate_step(scene_of(w), beyond * exact, 1.0).critical == look.critical);  // more than enough
+        const StepEstimate enough = estimate_step(scene_of(w), beyond * exact, 1.5);
         CHECK(enough.number == look.number);
         CHECK(enough.critical == beyond * exact);
         CHECK(look.critical < exact * 1.003);
@@ -261,8 +261,8 @@ TEST_CASE("time step: small spheres that come near lower it, dashpots follow, an
     }
     CHECK(touched);
     CHECK(w.dt < 0.6 * first);
-    CHECK(w.step_watch.looks >= 1);
-    CHECK(w.step_watch.first_dt == first);
+    CHECK(w.step_monitor.looks >= 1);
+    CHECK(w.step_monitor.first_dt == first);
     CHECK(most < 1.01 * 0.5 * 4 * w.particles.mass[2] * 100);  // nobody is faster than they came
     const double c = bond_dashpot(w.dashpots, w.particles, w.bonds, 0, w.dt);
     CHECK(w.bonds.damping[0] == c);
@@ -277,14 +277,14 @@ TEST_CASE("time step: what contacts add to the stability number stays below its 
   WorldOptions o = scene::options(p);
   const Assembly a = assemble(scene::small_packing(200), scene::small_cylinder(), {}, o.features, 1);
   World w = make_world(a, scene::material_of(p), scene::factor(p), o);
-  const double without = look_at_step(scene_of(w), w.dt).number;
-  w.search.skin *= 5;  // many at once
-  renew_contacts(w.search, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, o.features, false,
+  const double without = estimate_step(scene_of(w), w.dt).number;
+  w.neighbour_list.skin *= 5;  // many at once
+  renew_contacts(w.neighbour_list, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, o.features, false,
                  1);
   REQUIRE(w.contacts.size > 20);
   std::vector<std::size_t> all(w.contacts.size);
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const double with = look_at_step(scene_of(w), w.dt).number,
+  const double with = estimate_step(scene_of(w), w.dt).number,
                bound = stability_number_bound(scene_of(w), all, w.dt);
   CHECK(with >= without * (1 - 1e-9));
   CHECK(with <= (without + bound) * 1.02);

@@ -87,7 +87,7 @@ void LayoutRun::pass(double dt) {
   if (in_columns())
     collect_columns();
   else
-    collect(plan, world_.particles, world_.share.own(), threads_);
+    collect(plan, world_.particles, world_.partition.owned(), threads_);
 }
 
 /// As `collect` does for records.

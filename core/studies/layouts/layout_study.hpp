@@ -38,7 +38,7 @@ struct LayoutResult {
   MachinePeak peak;
   PassLimit limit;
 
-  Spread spread() const { return spread_of(block_ns); }  ///< ns per bond
+  MedianAndRange spread() const { return median_and_range_of(block_ns); }  ///< ns per bond
   double median() const { return spread().median; }
   double bonds_per_second() const { return 1e9 / median(); }
   double fraction_of_limit() const { return 1e9 * limit.time() / median(); }

@@ -63,14 +63,14 @@ bool same_series(const ScalingPoint& a, const ScalingPoint& b) {
 /// What the ranks share, and how evenly.
 void measure_parts(const World& w, ScalingRun& run) {
   std::size_t rows = 0, bonds = 0;
-  for (const Neighbour& n : w.share.neighbours) rows += n.receive.size();
+  for (const Neighbour& n : w.partition.neighbours) rows += n.receive.size();
   for (std::size_t k = 0; k < w.bonds.padded; ++k) bonds += w.bonds.stiffness[k] > 0.0;
   double most[] = {static_cast<double>(rows), static_cast<double>(bonds)};
-  largest_of_all(w.share.ranks, most);
+  all_reduce_max(w.partition.ranks, most);
   double all = 0.0;
-  for (const std::size_t one : sizes_of_all(w.share.ranks, bonds)) all += static_cast<double>(one);
+  for (const std::size_t one : sizes_of_all(w.partition.ranks, bonds)) all += static_cast<double>(one);
   run.halo_rows = static_cast<std::size_t>(most[0]);
-  run.imbalance = most[1] * w.share.ranks.count / all - 1.0;
+  run.imbalance = most[1] * w.partition.ranks.count / all - 1.0;
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& mate
   run.ranks = ranks.count;
   run.bonds = w.bonds.size;
   if (!ranks.alone()) {
-    w = cut(std::move(w), ranks);
+    w = distribute(std::move(w), ranks);
     measure_parts(w, run);
   }
   BlockClock clock(blocks, run);
@@ -128,15 +128,15 @@ ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& mate
   run.time_step = w.dt;
   run.table_bytes = column_bytes(w.particles) + column_bytes(w.bonds) + column_bytes(w.contacts);
   run.peak_bytes = peak_memory();
-  const World& whole = bring_together(w);
+  const World& whole = gather_to_root(w);
   run.state_hash = state_hash(whole.particles, whole.bonds);
   return run;
 }
 
-Spread step_time(const ScalingRun& run) {
+MedianAndRange step_time(const ScalingRun& run) {
   std::vector<double> of_a_step = run.seconds;
   for (double& seconds : of_a_step) seconds /= static_cast<double>(run.steps);
-  return spread_of(std::move(of_a_step));
+  return median_and_range_of(std::move(of_a_step));
 }
 
 double bond_updates(const ScalingRun& run) { return static_cast<double>(run.bonds) / step_time(run).median; }

@@ -80,7 +80,7 @@ ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& mate
                            const ScalingProgress& progress = {}, const Ranks& ranks = {});
 
 /// s, over the blocks.
-Spread step_time(const ScalingRun& run);
+MedianAndRange step_time(const ScalingRun& run);
 
 /// Bonds times steps per second, by the median.
 double bond_updates(const ScalingRun& run);

@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/bonding/law_of_material.hpp"
 #include "core/elastic/area_factor.hpp"
-#include "core/loading/guards.hpp"
+#include "core/loading/stability_checks.hpp"
 #include "core/studies/stability/exact_limit.hpp"
 
 namespace breccia {
@@ -99,7 +99,7 @@ bool would_run_away(World& w, double start, std::uint64_t steps) {
 }
 
 void run_freely(World& w, std::uint64_t steps, bool has_loss, StabilityRun& run) {
-  Guards guards = make_guards(w);
+  StabilityChecks checks = make_stability_checks(w);
   EnergyBook book(steps);
   double start = 0.0;
   try {
@@ -153,7 +153,7 @@ void run_test(StabilityWorld& made, StabilityRun& run) {
   run.steps = w.step;
   run.energy_error = energy_error(w.ledger);
   if (run.verdict == Verdict::stable) run.peak = peak_of(result.record);
-  settle(w);
+  sync(w);
   const BrokenCount broken = count_broken(w);
   run.broken = static_cast<double>(broken.tension + broken.shear);
 }
@@ -164,7 +164,7 @@ void run_rest(StabilityWorld& made, std::uint64_t steps, StabilityRun& run) {
   run_test(made, run);
   if (run.verdict != Verdict::stable) return;
   w.platens.velocity = {};
-  Guards guards = make_guards(w);
+  StabilityChecks checks = make_stability_checks(w);
   const std::uint64_t end = w.step + steps, settled = w.step + steps / 10;
   double start = 0.0, last = 0.0;
   try {
@@ -212,7 +212,7 @@ StabilityWorld make_stability_world(const StabilityScene& scene, StabilityPart p
     w.particles.position[k] += setup.offset;
     w.particles.reference_position[k] += setup.offset;
   }
-  w.search.position = w.particles.position.copy();
+  w.neighbour_list.position = w.particles.position.copy();
   if (part != StabilityPart::law) w.particles.free = w.first_top = w.particles.size;
   made.load = setup.load;
   made.blast = setup.blast;

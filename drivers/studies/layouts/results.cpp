@@ -56,7 +56,7 @@ void write_layouts_csv(const std::filesystem::path& file, const LayoutsResults& 
   std::vector<Json> rows;
   for (const LayoutsGroup& group : results.groups)
     for (const LayoutResult& r : group.results) rows.push_back(values_of(group, r));
-  write_aside(file, csv_of(rows));
+  atomic_write(file, csv_of(rows));
 }
 
 void write_layouts_json(const std::filesystem::path& file, const LayoutsResults& results) {
@@ -75,7 +75,7 @@ void write_layouts_json(const std::filesystem::path& file, const LayoutsResults&
       {"operations_per_bond", of(results.operations)},
       {"limits", limits},
       {"runs", runs}};
-  write_aside(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace breccia

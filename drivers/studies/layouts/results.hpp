@@ -25,7 +25,7 @@ struct LayoutsResults {
   std::vector<LayoutsGroup> groups;
 };
 
-/// @throws FileTrouble
+/// @throws WriteError
 void write_layouts_csv(const std::filesystem::path& file, const LayoutsResults& results);
 void write_layouts_json(const std::filesystem::path& file, const LayoutsResults& results);
 

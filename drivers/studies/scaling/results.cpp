@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 /// What a run comes to: names and values, the same in both files. Shares are of the wall time of the blocks.
 Json values_of(const ScalingRun& run, const std::vector<ScalingRun>& runs) {
-  const Spread t = step_time(run);
+  const MedianAndRange t = step_time(run);
   const ScalingGain gain = gain_of(run, runs);
   Json values{{"study", name_of(run.point.study)},
               {"scatter", name_of(run.point.scatter)},
@@ -64,7 +64,7 @@ Json of(const PublishedTimes& p) {
 void write_scaling_csv(const std::filesystem::path& file, const ScalingResults& results) {
   std::vector<Json> rows;
   for (const ScalingRun& run : results.runs) rows.push_back(values_of(run, results.runs));
-  write_aside(file, csv_of(rows));
+  atomic_write(file, csv_of(rows));
 }
 
 void write_scaling_json(const std::filesystem::path& file, const ScalingResults& results) {
@@ -86,7 +86,7 @@ void write_scaling_json(const std::filesystem::path& file, const ScalingResults&
                  {"test", test_of(results)},
                  {"runs", runs},
                  {"published", published}};
-  write_aside(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace breccia

@@ -17,11 +17,11 @@ struct ScalingResults {
 };
 
 /// A line for each point; the column names say the units.
-/// @throws FileTrouble
+/// @throws WriteError
 void write_scaling_csv(const std::filesystem::path& file, const ScalingResults& results);
 
 /// The same with every block, the machine and the published times.
-/// @throws FileTrouble
+/// @throws WriteError
 void write_scaling_json(const std::filesystem::path& file, const ScalingResults& results);
 
 /// One point in a line.

@@ -64,7 +64,7 @@ std::string describe(const ScalingPoint& p) {
 }
 
 std::string describe(const ScalingRun& run, const std::vector<ScalingRun>& runs) {
-  const Spread t = step_time(run);
+  const MedianAndRange t = step_time(run);
   return fmt::format("{}: {} ms per step ({} to {}), {} ns per bond, speed-up {:.2f}", describe(run.point),
                      four_digits(1e3 * t.median), four_digits(1e3 * t.least), four_digits(1e3 * t.most),
                      four_digits(1e9 / bond_updates(run)), gain_of(run, runs).speed_up);

@@ -41,7 +41,7 @@ void write_stability_csv(const std::filesystem::path& file, const StabilityResul
   std::vector<Json> rows;
   for (const auto& runs : results.parts)
     for (const StabilityRun& r : runs) rows.push_back(values_of(r));
-  write_aside(file, csv_of(rows));
+  atomic_write(file, csv_of(rows));
 }
 
 void write_stability_json(const std::filesystem::path& file, const StabilityResults& results) {
@@ -53,7 +53,7 @@ void write_stability_json(const std::filesystem::path& file, const StabilityResu
                  {"machine", json_of(results.machine)},
                  {"test", {{"material", results.material}, {"network_steps", results.length.network_steps}}},
                  {"runs", runs}};
-  write_aside(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace breccia

@@ -17,11 +17,11 @@ struct StabilityResults {
 };
 
 /// A line for each run; the column names say the units. What a run does not have is an empty field.
-/// @throws FileTrouble
+/// @throws WriteError
 void write_stability_csv(const std::filesystem::path& file, const StabilityResults& results);
 
 /// The same as objects, null for what a run does not have, and the machine.
-/// @throws FileTrouble
+/// @throws WriteError
 void write_stability_json(const std::filesystem::path& file, const StabilityResults& results);
 
 /// What became of the runs of one scene and part, in a line.

@@ -138,7 +138,7 @@ Journal::Journal(fs::path file, const JournalHead& head, bool resume) : file_(st
     text = whole_lines(file_);
     done_ = read_runs(file_, head, text);
   }
-  write_aside(file_, text.empty() ? line_of(json_of(head)) : text);
+  atomic_write(file_, text.empty() ? line_of(json_of(head)) : text);
 }
 
 const Outcome* Journal::find(const std::string& key) const {

@@ -16,12 +16,12 @@ using JournalHead = std::vector<std::pair<std::string, std::string>>;
 class Journal {
 public:
   /// @param resume  true: what the file holds is kept, but for a last line that a kill has cut short
-  /// @throws BadInput when the file was made with another head, or is none; FileTrouble
+  /// @throws BadInput when the file was made with another head, or is none; WriteError
   Journal(std::filesystem::path file, const JournalHead& head, bool resume);
 
   /// The outcome of a trial that has been run.
   const Outcome* find(const std::string& key) const;
-  /// Writes a line and waits until it is on the disk. @throws FileTrouble
+  /// Writes a line and waits until it is on the disk. @throws WriteError
   void add(const std::string& key, const Outcome& outcome);
 
 private:

@@ -183,7 +183,7 @@ void run_study(const WorkPrecisionOptions& options) {
                    {"cpu", results.machine.cpu},
                    {"instruction set", results.machine.instruction_set}},
                   options.resume);
-  write_aside(options.out / "case.toml", c.resolved);
+  atomic_write(options.out / "case.toml", c.resolved);
   Study(options, scene, trials, results, journal, progress).run();
   say(progress,
       format_reference(results) + format_recipes(results) + format_sizes(results) + format_cheapest(results));

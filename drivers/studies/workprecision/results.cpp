@@ -115,7 +115,7 @@ Json sizes_of(const Analysis& a) {
 void write_workprecision_csv(const std::filesystem::path& file, const WorkPrecisionResults& results) {
   std::vector<Json> rows;
   for (std::size_t k = 0; k < results.runs.size(); ++k) rows.push_back(without_nulls(values_of(results, k)));
-  write_aside(file, csv_of(rows));
+  atomic_write(file, csv_of(rows));
 }
 
 void write_workprecision_json(const std::filesystem::path& file, const WorkPrecisionResults& results) {
@@ -146,7 +146,7 @@ void write_workprecision_json(const std::filesystem::path& file, const WorkPreci
     all["warnings"] = a->warnings;
   }
   all["runs"] = runs;
-  write_aside(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace breccia

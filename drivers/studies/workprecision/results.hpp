@@ -21,11 +21,11 @@ struct WorkPrecisionResults {
 };
 
 /// A line for each run; the column names say the units, a quantity without a value is an empty field.
-/// @throws FileTrouble
+/// @throws WriteError
 void write_workprecision_csv(const std::filesystem::path& file, const WorkPrecisionResults& results);
 
 /// The same, reference, noise floor, fronts, cheapest recipes, sizes, and the machine.
-/// @throws FileTrouble
+/// @throws WriteError
 void write_workprecision_json(const std::filesystem::path& file, const WorkPrecisionResults& results);
 
 /// A run that has just ended, in a line.

@@ -1,4 +1,4 @@
-#include "core/loading/guards.hpp"
+#include "core/loading/stability_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +83,7 @@ std::string advice(const World& w, Row row) {
 
 /// So far from the origin places are rounded to more than a step moves them, while velocities are not: shear
 /// forces, which are summed from velocities, then grow without a motion.
-std::optional<std::string> advice_far_away(const Guards& g) {
+std::optional<std::string> advice_far_away(const StabilityChecks& g) {
   if (g.farthest < 1e5 * g.size) return std::nullopt;
   return fmt::format(
       "likely cause: {:.2g} m from the origin places are rounded to {:.1g} m; move the specimen to the "
@@ -107,7 +107,7 @@ bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) 
 void check_numbers(const World& w, double kinetic, double stored) {
   if (std::isfinite(kinetic) && std::isfinite(stored)) return;
   const ParticleTable& p = w.particles;
-  const Rows own = w.share.own();
+  const Rows own = w.partition.owned();
   for (std::size_t k = own.first; k < own.last; ++k) {
     const bool spin = p.spin.empty() || is_finite(p.spin[k]);
     const char* lost = !is_finite(p.velocity[k])   ? "velocity"
@@ -129,7 +129,7 @@ void check_numbers(const World& w, double kinetic, double stored) {
 Row most_energetic(const World& w) {
   const ParticleTable& p = w.particles;
   const auto energy = [&](std::size_t k) { return p.mass[k] * dot(p.velocity[k], p.velocity[k]); };
-  const Rows own = w.share.own();
+  const Rows own = w.partition.owned();
   std::size_t most = std::min(own.first, p.size - 1);
   for (std::size_t k = own.first; k < own.last; ++k)
     if (energy(k) > energy(most)) most = k;
@@ -148,12 +148,12 @@ double energy_of_layers(const Platens& platens) {
 
 /// J, of platens and pressure since the last look. The pressure on a particle hardly changes from one look to
 /// the next, whatever the particle does meanwhile.
-double work_since(Guards& g, const World& w) {
+double work_since(StabilityChecks& g, const World& w) {
   double work = w.platens.work - g.platen_work;
   g.platen_work = w.platens.work;
   const Confinement& c = w.confinement;
   std::vector<double> blocks;
-  return work + sum_listed(w.share, c.rows, 1, blocks, [&](std::size_t k) {
+  return work + sum_listed(w.partition, c.rows, 1, blocks, [&](std::size_t k) {
            const Vec3& x = w.particles.position[c.rows[k]];
            const double by_pressure = 0.5 * dot(g.push[k] + c.force[k], x - g.skin[k]);
            g.skin[k] = x;
@@ -162,10 +162,10 @@ double work_since(Guards& g, const World& w) {
          });
 }
 
-void check_energy(Guards& g, const World& w, double kinetic, double stored) {
-  g.explained = std::max(0.0, g.explained + work_since(g, w));
+void check_energy(StabilityChecks& g, const World& w, double kinetic, double stored) {
+  g.accounted = std::max(0.0, g.accounted + work_since(g, w));
   const double own = std::max(0.0, kinetic - energy_of_layers(w.platens));
-  const double bound = allowed_excess(w) * (g.explained + 0.01 * g.highest) + g.noise;  // (B58)
+  const double bound = allowed_excess(w) * (g.accounted + 0.01 * g.max_energy) + g.noise;  // (B58)
   double there = own + stored;
   // with the places of the step whose forces the bonds remember: where places have gone on since, a bond that
   // yields seems to hold more than it does
@@ -176,17 +176,17 @@ void check_energy(Guards& g, const World& w, double kinetic, double stored) {
         w,
         fmt::format("energy comes from nowhere: {:.3g} J kinetic and stored, where {:.3g} J are explained by "
                     "what was there and the work since; particle {} has most of it, {:.3g} m/s",
-                    there, g.explained, w.particles.gid[row], norm(w.particles.velocity[row])),
+                    there, g.accounted, w.particles.gid[row], norm(w.particles.velocity[row])),
         row, advice_far_away(g).value_or(advice(w, row)));
   }
-  g.explained = std::min(g.explained, there);
-  g.highest = std::max(g.highest, there);
+  g.accounted = std::min(g.accounted, there);
+  g.max_energy = std::max(g.max_energy, there);
 }
 
 /// @returns m/s, the largest speed
-double check_speeds(const Guards& g, const World& w) {
+double check_speeds(const StabilityChecks& g, const World& w) {
   const ParticleTable& p = w.particles;
-  const Rows own = w.share.own();
+  const Rows own = w.partition.owned();
   double most2 = 0.0;
   for (std::size_t k = own.first; k < own.last; ++k) {
     const double speed2 = dot(p.velocity[k], p.velocity[k]);
@@ -238,9 +238,9 @@ void check_turns(const World& w) {
   }
 }
 
-void check_places(const Guards& g, const World& w) {
+void check_places(const StabilityChecks& g, const World& w) {
   const ParticleTable& p = w.particles;
-  const Rows own = w.share.own();
+  const Rows own = w.partition.owned();
   const double most = lost_sizes * g.size;
   for (std::size_t k = own.first; k < own.last; ++k) {
     const Vec3 away = p.position[k] - g.centre;
@@ -271,8 +271,8 @@ double allowed_excess(const World& w) {
   return 1.5 * (1.0 + s) / (1.0 - s);
 }
 
-Guards make_guards(const World& w) {
-  Guards g;
+StabilityChecks make_stability_checks(const World& w) {
+  StabilityChecks g;
   const ParticleTable& p = w.particles;
   Vec3 low = p.position[0], high = low;
   for (std::size_t k = 0; k < p.size; ++k) {
@@ -287,14 +287,14 @@ Guards make_guards(const World& w) {
   const BondTable& b = w.bonds;
   double extremes[] = {b.size > 0 ? fastest_wave(w) : 0.0, -std::numeric_limits<double>::infinity()};
   for (std::size_t k = 0; k < b.size; ++k) extremes[1] = std::max(extremes[1], -b.rest_length[k]);
-  largest_of_all(w.share.ranks, extremes);
+  all_reduce_max(w.partition.ranks, extremes);
   g.fastest = extremes[0] > 0.0 ? extremes[0] : std::numeric_limits<double>::infinity();
   g.shortest = -extremes[1];
-  g.explained = g.highest = std::max(0.0, kinetic_energy(w) - energy_of_layers(w.platens)) + stored_energy(w);
+  g.accounted = g.max_energy = std::max(0.0, kinetic_energy(w) - energy_of_layers(w.platens)) + stored_energy(w);
   // each place is rounded at every step; errors of 64 steps in a row, all one way
   const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * g.farthest;
   std::vector<double> blocks;
-  g.noise = sum_pairs(w.share, b, w.options.threads, blocks,
+  g.noise = sum_pairs(w.partition, b, w.options.threads, blocks,
                       [&](std::size_t k) { return 0.5 * b.stiffness[k] * rounding * rounding; });
   g.platen_work = w.platens.work;
   for (const Row row : w.confinement.rows) g.skin.push_back(w.particles.position[row]);
@@ -302,18 +302,18 @@ Guards make_guards(const World& w) {
   return g;
 }
 
-void bring_skin_together(Guards& g, const World& w) {
-  const Ranks& ranks = w.share.ranks;
+void gather_surface_marks(StabilityChecks& g, const World& w) {
+  const Ranks& ranks = w.partition.ranks;
   if (ranks.alone()) return;
   for (std::vector<Vec3>* noted : {&g.skin, &g.push}) {
-    std::vector<Vec3> all = gather_own_entries<Vec3>(w.share, w.confinement.rows, *noted);
+    std::vector<Vec3> all = gather_owned_entries<Vec3>(w.partition, w.confinement.rows, *noted);
     if (ranks.is_root()) *noted = std::move(all);
   }
 }
 
 namespace {
 
-void check_here(Guards& g, const World& w, double kinetic, double stored) {
+void check_here(StabilityChecks& g, const World& w, double kinetic, double stored) {
   check_numbers(w, kinetic, stored);
   check_energy(g, w, kinetic, stored);
   check_balance(w);
@@ -334,15 +334,15 @@ std::string complaint_of_all(const Ranks& ranks, const std::string& mine) {
 
 }  // namespace
 
-void check(Guards& g, const World& w, double kinetic, double stored) {
-  if (w.share.ranks.alone()) return check_here(g, w, kinetic, stored);
+void check(StabilityChecks& g, const World& w, double kinetic, double stored) {
+  if (w.partition.ranks.alone()) return check_here(g, w, kinetic, stored);
   std::string complaint;
   try {
     check_here(g, w, kinetic, stored);
   } catch (const SimulationBroke& broke) {
     complaint = broke.what();
   }
-  complaint = complaint_of_all(w.share.ranks, complaint);
+  complaint = complaint_of_all(w.partition.ranks, complaint);
   if (!complaint.empty()) throw SimulationBroke(complaint);
 }
 

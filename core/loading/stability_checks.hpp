@@ -8,14 +8,14 @@
 namespace breccia {
 
 /// What is remembered from look to look.
-struct Guards {
+struct StabilityChecks {
   Vec3 centre;                   ///< m, of the box around the spheres at the start
   double size = 0;               ///< m, its longest edge
   double farthest = 0;           ///< m, largest coordinate
   double fastest = 0;            ///< m/s, what the stiffest bond for its mass carries, see fastest_wave
   double shortest = 0;           ///< m, rest length of a bond
-  double explained = 0;          ///< J, kinetic and stored: what was there and the work since
-  double highest = 0;            ///< J, the most there ever was
+  double accounted = 0;          ///< J, kinetic and stored: what was there and the work since
+  double max_energy = 0;         ///< J, the most there ever was
   double noise = 0;              ///< J, that rounding of the coordinates alone stores
   double platen_work = 0;        ///< J, at the last look
   std::vector<Vec3> skin, push;  ///< m, N: places of the skin at the last look, and the pressure on it
@@ -25,10 +25,10 @@ struct Guards {
 inline constexpr double out_of_balance = 0.1;
 
 /// A specimen as it stands now, with the velocities that it has. Called on every rank.
-Guards make_guards(const World& world);
+StabilityChecks make_stability_checks(const World& world);
 
 /// Brings to the root what each rank's guards have noted of its part of the skin.
-void bring_skin_together(Guards& guards, const World& world);
+void gather_surface_marks(StabilityChecks& guards, const World& world);
 
 /// A particle is lost beyond so many times the longest edge of the specimen's box.
 inline constexpr double lost_sizes = 10.0;  // (B59)
@@ -51,6 +51,6 @@ double allowed_excess(const World& world);
 /// loss) but rise only by the work of platens and pressure. So it needs no account of what was dissipated.
 /// @param kinetic, stored  J, of all particles and bonds
 /// @throws SimulationBroke with time, step, particle, bond, likely cause and what to change
-void check(Guards& guards, const World& world, double kinetic, double stored);
+void check(StabilityChecks& guards, const World& world, double kinetic, double stored);
 
 }  // namespace breccia
