@@ -120,7 +120,7 @@ Connection leave_out_loose(Assembly& a, bool contacts, int threads) {
   return c;
 }
 
-std::vector<char> main_body(const Specimen& specimen, double range, int threads) {
+MainBody main_body(const Specimen& specimen, double range, int threads) {
   const FarAway far_away(specimen);
   std::vector<std::size_t> near;  // a list of cells is of no use where one sphere lies miles away
   std::vector<Vec3> centre;
@@ -131,10 +131,11 @@ std::vector<char> main_body(const Specimen& specimen, double range, int threads)
     near.push_back(k), centre.push_back(s.centre), radius.push_back(s.radius);
   }
   const Pieces pieces = pieces_of(near.size(), near_pairs(centre, radius, range, 0.0, threads));
-  std::vector<char> of_body(specimen.spheres.size());
-  for (std::size_t k = 0; k < near.size(); ++k)
-    of_body[near[k]] = 10 * pieces.sizes[pieces.of[k]] >= pieces.sizes.front();
-  return of_body;
+  const auto is_large = [&](std::size_t size) { return 10 * size >= pieces.sizes.front(); };
+  MainBody body{std::vector<char>(specimen.spheres.size()), 0};
+  for (std::size_t k = 0; k < near.size(); ++k) body.has[near[k]] = is_large(pieces.sizes[pieces.of[k]]);
+  for (const std::size_t size : pieces.sizes) body.pieces += is_large(size);
+  return body;
 }
 
 }  // namespace breccia

@@ -31,9 +31,12 @@ struct Connection {
 /// @param contacts  whether the run has contacts: pieces that touch then carry load through each other
 Connection leave_out_loose(Assembly& assembly, bool contacts, int threads);
 
-/// Spheres with neighbours to speak of: 1 for those in a piece of a tenth of the largest or more, where
-/// spheres nearer than `range` of their radii hang together. What is far from all others must not move the
-/// middle of a specimen.
-std::vector<char> main_body(const Specimen& specimen, double range, int threads);
+/// Spheres with neighbours to speak of: what is far from all others must not move the middle of a specimen.
+struct MainBody {
+  std::vector<char> has;  ///< per sphere, 1 in a piece of a tenth of the largest or more
+  std::size_t pieces = 1;  ///< of that size, that are apart from each other
+};
+/// @param range  spheres nearer than (1 + range)(r_i + r_j) hang together
+MainBody main_body(const Specimen& specimen, double range, int threads);
 
 }  // namespace breccia

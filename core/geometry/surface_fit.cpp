@@ -139,7 +139,7 @@ struct Fitter {
 Fit judge(const SurfaceGap& gap) {
   // a surface that was cut from a block reaches beyond its nominal place here, and stays behind it there
   const double roughness = std::isfinite(gap.roughness) ? gap.roughness : 0.0;
-  if (!(gap.median <= 0.3) || gap.median < -0.4 - 0.5 * roughness) return Fit::wrong;
+  if (!(gap.median <= 0.3) || gap.median < -0.4 - 0.75 * roughness) return Fit::wrong;
   return gap.median > 0.15 || gap.median < -0.25 ? Fit::doubtful : Fit::good;
 }
 

@@ -52,7 +52,9 @@ void warn_of_pressure(RunSummary& run) {
 
 /// alpha gives the specimen the material's modulus. Under pressure bonds may have yielded before, which
 /// makes it softer; nothing makes it stiffer.
-void warn_of_modulus(double asked, RunSummary& run) {
+void warn_of_modulus(const Material& material, RunSummary& run) {
+  if (material.own.contains("normal_stiffness")) return;  // a law with a stiffness of its own has no alpha
+  const double asked = material.young_modulus;
   if (!run.young_modulus_Pa || !std::isfinite(*run.young_modulus_Pa)) return;
   const double ratio = *run.young_modulus_Pa / asked;
   if (ratio <= 1.1 && (ratio >= 0.9 || run.confinement_Pa > 0.0)) return;
@@ -179,7 +181,7 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
     return run;
   }
   warn_if_dynamic(f, run);
-  warn_of_modulus(w.material.young_modulus, run);
+  warn_of_modulus(w.material, run);
   if (run.peak_reached) {
     const ErrorEstimate e =
         estimate_error(f.kinetic_ratio, f.platen_mismatch, run.energy_error, run.particles);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/geometry/surface_fit.hpp"
 #include "io/specimens/read_specimen.hpp"
 
 namespace breccia {
@@ -47,14 +48,14 @@ std::string describe(const SurfaceFit& fit) {
 
 }  // namespace
 
-std::vector<std::string> check_body(const Case& c, const Specimen& placed, const std::vector<char>& of_body,
+std::vector<std::string> check_body(const Case& c, const Specimen& placed, const MainBody& body,
                                     const Specimen& as_read, Progress& progress) {
   const SpecimenCase& s = c.specimen;
   std::vector<Vec3> centre;
   std::vector<double> radius;
   double mean_radius = 0.0;
   for (std::size_t k = 0; k < placed.spheres.size(); ++k) {
-    if (!of_body.empty() && !of_body[k]) continue;
+    if (!body.has[k]) continue;
     centre.push_back(placed.spheres[k].centre), radius.push_back(placed.spheres[k].radius);
     mean_radius += radius.back();
   }
@@ -63,12 +64,17 @@ std::vector<std::string> check_body(const Case& c, const Specimen& placed, const
   say(progress, describe(fit));
   std::vector<std::string> warnings;
   const bool box = s.body.shape == Shape::box;
+  const std::string apart =
+      body.pieces > 1 ? fmt::format("; the spheres lie in {} pieces apart from each other", body.pieces) : "";
   const auto check_size = [&](const Size& size, const SurfaceGap& gap) {
-    tell(judge(gap), placed.source, text_of(size, gap, mean_radius), warnings);
+    Fit fit_of_size = judge(gap);
+    // what has come apart is wider than it was, which is no slip in the case
+    if (fit_of_size == Fit::wrong && gap.median < 0.0 && body.pieces > 1) fit_of_size = Fit::doubtful;
+    tell(fit_of_size, placed.source, text_of(size, gap, mean_radius) + apart, warnings);
   };
   const double away = std::max({std::abs(fit.offset.x), std::abs(fit.offset.y), std::abs(fit.offset.z)});
   if (judge_offset(away) != Fit::good) {
-    const Vec3 middle = s.centre ? *s.centre : middle_of(as_read, of_body);
+    const Vec3 middle = s.centre ? *s.centre : middle_of(as_read, body.has);
     const Vec3 right = middle + way_in_file(as_read, mean_radius * fit.offset, s.axis, s.space);
     tell(judge_offset(away), placed.source,
          fmt::format("specimen.centre: the spheres' own middle lies {} away, {:.2f} mean radii; "

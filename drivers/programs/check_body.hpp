@@ -4,19 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/surface_fit.hpp"
+#include "core/bonding/pieces.hpp"
 #include "io/cases/case.hpp"
 #include "io/results/progress.hpp"
 
 namespace breccia {
 
 /// @param placed   the specimen, axis along z and middle at the origin
-/// @param of_body  per sphere, 1 where it belongs to the body
+/// @param body     the spheres that belong to it
 /// @param as_read  the same as it lies in the file, for what a message says of specimen.centre
 /// @param progress is told where the surfaces lie
 /// @returns what to warn of
 /// @throws BadInput: a body that is not the nominal one, naming the key and the value that would fit
-std::vector<std::string> check_body(const Case& c, const Specimen& placed, const std::vector<char>& of_body,
+std::vector<std::string> check_body(const Case& c, const Specimen& placed, const MainBody& body,
                                     const Specimen& as_read, Progress& progress);
 
 }  // namespace breccia

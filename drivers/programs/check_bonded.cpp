@@ -71,7 +71,7 @@ void check_lateral_surface(const Assembly& a, bool pressed, const std::string& s
         "{}: the specimen is one sphere wide: no sphere lies beside its axis, and lateral pressure has no "
         "direction; use a wider specimen",
         source);
-  if (pressed && cover < 0.2)
+  if (pressed && cover < 0.3)
     fail<BadInput>(
         "{}: {} spheres that hang together reach the lateral surface and cover {:.3f} of it (packings: 0.65 "
         "to 0.9): the pressure on it would rest on them alone; check specimen.diameter and specimen.centre",
@@ -98,7 +98,7 @@ void check_area_factor(const AreaFactor& f, const Assembly& a, const Connection&
         "cut, a thread, loose spheres), and larger areas would hide that and raise all strengths; give "
         "bonds.alpha the value of the intact specimen, or {:.4g}",
         f.alpha, ratio, neighbours, f.affine);
-  if (ratio > 1.3 || ratio < 0.7)
+  if (ratio > (sparse ? 1.5 : 1.2) || ratio < 0.7)
     warnings.push_back(fmt::format(
         "alpha {:.4g} is {:.3g} times what an intact packing of {:.1f} bonds per sphere needs ({:.4g}): {}",
         f.alpha, ratio, neighbours, f.affine,

@@ -211,7 +211,7 @@ void note_specimen(const ReadySpecimen& ready, RunSummary& run) {
   run.loose_particles = ready.connection.loose;
   run.pieces = ready.connection.pieces.size();
   if (ready.factor.affine > 0.0) run.alpha_affine = ready.factor.affine;
-  if (ready.assembly.grip == Support::ends) run.mantle_cover = lateral_cover(ready.assembly);
+  if (!ready.assembly.body.on_edge) run.mantle_cover = lateral_cover(ready.assembly);
   run.warnings.insert(run.warnings.begin(), ready.warnings.begin(), ready.warnings.end());
 }
 

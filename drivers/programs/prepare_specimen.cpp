@@ -25,10 +25,10 @@ Specimen read_and_place(const Case& c, int threads, Progress& progress,
   const SpecimenCase& s = c.specimen;
   const Specimen as_read = read_specimen(*s.file);
   check_sizes(as_read);
-  const std::vector<char> of_body = main_body(as_read, std::max(c.bonds.range, BondingRule{}.range), threads);
-  Specimen placed = place_specimen(as_read, s.axis, s.centre, s.space, of_body);
-  check_specimen(placed, s.body, s.space);
-  for (std::string& warning : check_body(c, placed, of_body, as_read, progress)) warnings.push_back(std::move(warning));
+  const MainBody body = main_body(as_read, std::max(c.bonds.range, BondingRule{}.range), threads);
+  Specimen placed = place_specimen(as_read, s.axis, s.centre, s.space, body.has);
+  check_specimen(placed, s.body, s.space, body.has);
+  for (std::string& warning : check_body(c, placed, body, as_read, progress)) warnings.push_back(std::move(warning));
   return placed;
 }
 
@@ -98,11 +98,10 @@ bool has_contacts(const Case& c, const std::string& test) {
   return c.features.new_contacts && test != "tension";
 }
 
-/// Whether a fluid or a wall acts on the lateral surface.
-bool presses_sideways(const Case& c, const std::string& test) {
-  if (test == "usc") return true;
+/// Whether a fluid, a wall or the halves of a shear box act on the lateral surface.
+bool acts_sideways(const Case& c, const std::string& test) {
   const auto& p = c.test.confinement;
-  return test != "shear" && std::any_of(p.begin(), p.end(), [](double pressure) { return pressure > 0.0; });
+  return test == "usc" || test == "shear" || std::any_of(p.begin(), p.end(), [](double pressure) { return pressure > 0.0; });
 }
 
 void say_warnings(const std::vector<std::string>& warnings, Progress& progress) {
@@ -165,7 +164,7 @@ ReadySpecimen make_ready(const Case& c, const std::string& test, const Features&
   if (test != "bts") {
     Assembly ends = bonded(specimen, body, Support::ends);
     look_at(ends);
-    check_lateral_surface(ends, presses_sideways(c, test), specimen.source, ready.warnings);
+    check_lateral_surface(ends, acts_sideways(c, test), specimen.source, ready.warnings);
     find_factor(ends, c.bonds.alpha_rule, c.test.rough_platens);
     ready.assembly = std::move(ends);
     if (test == "shear") {

@@ -145,17 +145,27 @@ std::string unit_hint(const Specimen& specimen, const Body& body, Space space) {
                      known ? nearest_to.factor : *times, known ? ", " : "", known ? nearest_to.what : "");
 }
 
-void check_inside(const Specimen& specimen, const Body& body, Space space) {
+void check_inside(const Specimen& specimen, const Body& body, Space space, const std::vector<char>& of_body) {
   const double allowed = 0.02 * body.diameter;
   const SpecimenSphere* worst = nullptr;
-  std::size_t count = 0;
+  std::size_t count = 0, strays = 0;
   double farthest = allowed;
-  for (const SpecimenSphere& sphere : specimen.spheres) {
+  for (std::size_t k = 0; k < specimen.spheres.size(); ++k) {
+    const SpecimenSphere& sphere = specimen.spheres[k];
     const double distance = outside(sphere.centre, body, space);
-    if (distance > allowed) ++count;
+    if (distance > allowed) {
+      ++count;
+      strays += !of_body.empty() && of_body[k] == 0;
+    }
     if (distance > farthest) farthest = distance, worst = &sphere;
   }
   if (!worst) return;
+  if (strays == count)
+    fail<BadInput>(
+        "{}: sphere {} is a stray one: it hangs on nothing, {} outside the {} ({} such of {} spheres); remove "
+        "it",
+        place_of(specimen, *worst), worst->id, millimetres(farthest), describe(body, space), count,
+        specimen.spheres.size());
   fail<BadInput>(
       "{}: the centre of sphere {} lies {} outside the {} ({} of {} spheres beyond the {} allowed); check "
       "specimen.diameter, height, axis and centre{}",
@@ -245,10 +255,11 @@ Specimen stand_disc(Specimen specimen, char axis, std::optional<char> load_axis)
   return specimen;
 }
 
-void check_specimen(const Specimen& specimen, const Body& body, Space space) {
+void check_specimen(const Specimen& specimen, const Body& body, Space space,
+                    const std::vector<char>& of_body) {
   if (specimen.spheres.empty()) fail<BadInput>("{}: no sphere in the specimen", specimen.source);
   check_coincident(specimen);
-  check_inside(specimen, body, space);
+  check_inside(specimen, body, space, of_body);
   check_filled(specimen, body, space);
 }
 

@@ -48,7 +48,9 @@ Specimen stand_disc(Specimen, char axis, std::optional<char> load_axis);
 /// Checks a specimen that is in place.
 /// @throws BadInput: no sphere, two spheres with one centre, a centre outside the body by more than 2 % of
 /// the diameter
-void check_specimen(const Specimen&, const Body&, Space space = Space::three_d);
+/// @param of_body  per sphere, 0 where it hangs on nothing, for what the message advises; empty: all hang
+void check_specimen(const Specimen&, const Body&, Space space = Space::three_d,
+                    const std::vector<char>& of_body = {});
 
 /// Writes spheres as .csv such that they read back bit for bit; aside first, then renamed.
 /// @throws WriteError
