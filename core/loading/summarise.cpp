@@ -40,6 +40,34 @@ void warn_if_dynamic(const CurveFindings& f, RunSummary& run) {
         100 * f.platen_mismatch));
 }
 
+/// The pressure that was asked for and the one that acts.
+void warn_of_pressure(RunSummary& run) {
+  if (!run.confinement_measured_Pa) return;
+  const double asked = run.confinement_Pa, held = *run.confinement_measured_Pa;
+  if (std::abs(held - asked) <= 0.05 * asked) return;
+  run.warnings.push_back(
+      fmt::format("confinement: {:.4g} MPa were asked for, {:.4g} MPa are held by the specimen at the end of "
+                  "stage 1; the "
+                  "lateral surface is not pressed as it should be",
+                  asked * 1e-6, held * 1e-6));
+}
+
+/// alpha gives the specimen the material's modulus. Under pressure bonds may have yielded before, which
+/// makes it softer; nothing makes it stiffer.
+void warn_of_modulus(const Material& material, RunSummary& run) {
+  if (material.own.contains("normal_stiffness")) return;  // a law with a stiffness of its own has no alpha
+  const double asked = material.young_modulus;
+  if (!run.young_modulus_Pa || !std::isfinite(*run.young_modulus_Pa)) return;
+  const double ratio = *run.young_modulus_Pa / asked;
+  if (ratio <= 1.1 && (ratio >= 0.9 || run.confinement_Pa > 0.0)) return;
+  run.warnings.push_back(
+      fmt::format("young_modulus: the curve has {:.4g} GPa, {:.0f} % {} than the material's {:.4g} GPa; "
+                  "strengths go with "
+                  "it",
+                  *run.young_modulus_Pa * 1e-9, 100.0 * std::abs(ratio - 1.0), ratio > 1.0 ? "more" : "less",
+                  asked * 1e-9));
+}
+
 /// Moduli are those of the first loading: a way up to the peak that was unloaded is no straight line.
 void read_moduli_before(double unloaded, std::span<const CurveRow> rows, std::span<const double> mismatch,
                         CurveFindings& f) {
@@ -114,6 +142,7 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   run.crack_initiation_stress_Pa = f.crack_initiation_stress;
   run.crack_damage_stress_Pa = f.crack_damage_stress;
   run.alpha = w.alpha;
+  if (std::isfinite(result.held_pressure)) run.confinement_measured_Pa = result.held_pressure;
   run.particles = w.particles.size;
   run.bonds = w.bonds.size;
   run.coordination = a.coordination;
@@ -140,6 +169,7 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   run.state_hash = state_hash(w.particles, w.bonds);
   run.stopped_by = name_of(result.stopped);
   run.warnings = result.warnings;
+  warn_of_pressure(run);
   if (test == "bts") read_disc(w, a, result, run);
   if (test == "tension") run.tensile_strength_Pa = run.peak_stress_Pa;
   if (test == "shear") run.peak_deviator_Pa.reset();
@@ -154,6 +184,7 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
     return run;
   }
   warn_if_dynamic(f, run);
+  warn_of_modulus(w.material, run);
   if (run.peak_reached) {
     const ErrorEstimate e =
         estimate_error(f.kinetic_ratio, f.platen_mismatch, run.energy_error, run.particles);

@@ -234,6 +234,15 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
   return summary;
 }
 
+/// What the summary of a run says of its specimen.
+void note_specimen(const ReadySpecimen& ready, RunSummary& run) {
+  run.loose_particles = ready.connection.loose;
+  run.pieces = ready.connection.pieces.size();
+  if (ready.factor.affine > 0.0) run.alpha_affine = ready.factor.affine;
+  if (!ready.assembly.body.on_edge) run.mantle_cover = lateral_cover(ready.assembly);
+  run.warnings.insert(run.warnings.begin(), ready.warnings.begin(), ready.warnings.end());
+}
+
 std::string result_line(const Case& c, std::size_t k, const std::string& test, const RunSummary& run) {
   const std::string what =
       test == "hydrostatic"
@@ -330,7 +339,8 @@ void run_test_program(const CommandLine& line) {
   if (line.explain || line.dry_run) {
     const World w = make_world(ready.assembly, c.materials.front(), ready.factor, options);
     say(progress, step_line(w, c.safety));
-    if (const std::string elastic = describe_elasticity(c, ready, line.threads); !elastic.empty())
+    if (const std::string elastic = describe_elasticity(c, line.program, ready, line.threads);
+        !elastic.empty())
       say(progress, elastic);
     if (line.explain) say(progress, "\n" + explain(w));
     return;
@@ -368,6 +378,7 @@ void run_test_program(const CommandLine& line) {
     const std::string finished = runs_text(series.runs);
     series.runs.push_back(
         run_one({c, ranks, line.program, k, line.out, progress}, w, ready.assembly, finished, state, result));
+    note_specimen(ready, series.runs.back());
     stopped = result.stopped;
     if (!ranks.is_root()) continue;
     fit_peaks(series);
