@@ -103,7 +103,8 @@ Connection leave_out_loose(Assembly& a, bool contacts, int threads) {
   c.by_bonds = c.joined = any_of(carries);
   Pieces touching = bonded;
   if (contacts && c.pieces.size() > 1) {
-    const std::vector<RowPair> touch = near_pairs(a.particles.position, a.particles.radius, 0.0, 0.0, threads);
+    const std::vector<RowPair> touch =
+        near_pairs(a.particles.position, a.particles.radius, 0.0, 0.0, threads);
     links.insert(links.end(), touch.begin(), touch.end());
     touching = pieces_of(a.particles.size, links);
     carries = reach_across(touching, a);

@@ -33,7 +33,7 @@ Connection leave_out_loose(Assembly& assembly, bool contacts, int threads);
 
 /// Spheres with neighbours to speak of: what is far from all others must not move the middle of a specimen.
 struct MainBody {
-  std::vector<char> has;  ///< per sphere, 1 in a piece of a tenth of the largest or more
+  std::vector<char> has;   ///< per sphere, 1 in a piece of a tenth of the largest or more
   std::size_t pieces = 1;  ///< of that size, that are apart from each other
 };
 /// @param range  spheres nearer than (1 + range)(r_i + r_j) hang together

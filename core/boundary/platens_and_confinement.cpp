@@ -20,7 +20,8 @@ struct LayerForces {
   }
 };
 
-std::array<Vec3, 2> forces_on_layers(const ParticleTable& p, const Partition& partition, std::size_t first_top) {
+std::array<Vec3, 2> forces_on_layers(const ParticleTable& p, const Partition& partition,
+                                     std::size_t first_top) {
   std::vector<LayerForces> blocks;
   const auto held = [&](std::size_t row) { return std::max(row, p.free); };
   const auto force_on = [&](std::size_t row) {
@@ -176,8 +177,8 @@ void apply_confinement(Confinement& c, ParticleTable& particles, const Partition
     const double away = radial > 0.0 ? std::sqrt(radial) : 1.0, inward = -push / away;
     const Vec3& f = c.force[k] = {inward * x.x, inward * x.y, 0.0};
     const double out_x = x.x / away, out_y = x.y / away;
-    return SkinSums{1.0,    x.x,   x.y,   x.z, x.z * x.z,   x.x * x.z,   x.y * x.z, radial, f.x, f.y,
-                    x.z * f.x, x.z * f.y, push,  out_x,     out_y,       out_x * x.z, out_y * x.z};
+    return SkinSums{1.0, x.x,       x.y,       x.z,  x.z * x.z, x.x * x.z, x.y * x.z,   radial,     f.x,
+                    f.y, x.z * f.x, x.z * f.y, push, out_x,     out_y,     out_x * x.z, out_y * x.z};
   });
   Eigen::Matrix<double, 5, 5> gram;
   // clang-format off

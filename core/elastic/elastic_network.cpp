@@ -152,7 +152,8 @@ namespace {
 /// there.
 /// @param u  prescribed values, and a first guess of the others
 /// @returns turns, `limit` where that was not enough
-long solve(const ElasticNetwork& net, const Eigen::VectorXd& inverse_diagonal, Eigen::VectorXd& u, long limit) {
+long solve(const ElasticNetwork& net, const Eigen::VectorXd& inverse_diagonal, Eigen::VectorXd& u,
+           long limit) {
   const auto free = (inverse_diagonal.array() > 0.0).cast<double>().matrix().eval();
   const Eigen::Index n = u.size();
   Eigen::VectorXd force(n), residual(n), direction(n), image(n);
@@ -196,7 +197,8 @@ void set_free(const Assembly& a, bool rough, Eigen::VectorXd& inverse_diagonal) 
 SpringConstants pressed(const ElasticNetwork& net, std::size_t spring, const Eigen::VectorXd& u,
                         double stiffness, double shear_ratio, double friction) {
   const auto& [normal, arm_ratio] = net.branches[spring];
-  const std::size_t at_lo = 6 * std::size_t{net.springs[spring].lo}, at_hi = 6 * std::size_t{net.springs[spring].hi};
+  const std::size_t at_lo = 6 * std::size_t{net.springs[spring].lo},
+                    at_hi = 6 * std::size_t{net.springs[spring].hi};
   const Vec3 turn = arm_ratio * (net.radius[net.springs[spring].lo] * three<double>(u, at_lo + 3) +
                                  net.radius[net.springs[spring].hi] * three<double>(u, at_hi + 3));
   const Vec3 relative = three<double>(u, at_hi) - three<double>(u, at_lo) - cross(turn, normal);

@@ -20,7 +20,7 @@ struct Seen {
 struct Sheet {
   double low_u, high_u, low_v, high_v;  ///< m
   double outside;                       ///< m, of the nominal surface from the middle
-  bool round_end = false;  ///< only patches with their middle within 0.9 of the radius count
+  bool round_end = false;               ///< only patches with their middle within 0.9 of the radius count
 };
 
 struct Patch {
@@ -31,8 +31,8 @@ struct Patch {
 std::vector<Patch> patches_of(const Sheet& s, std::span<const Seen> seen, double mean_radius) {
   const double u = s.high_u - s.low_u, v = s.high_v - s.low_v;
   const double most = std::max(1.0, 0.25 * static_cast<double>(seen.size()));
-  const double side = v > 0.0 ? std::max(3.0 * mean_radius, std::sqrt(u * v / most))
-                              : std::max(3.0 * mean_radius, u / most);
+  const double side =
+      v > 0.0 ? std::max(3.0 * mean_radius, std::sqrt(u * v / most)) : std::max(3.0 * mean_radius, u / most);
   const auto count = [&](double length) { return std::max(1, static_cast<int>(length / side)); };
   const int n = count(u), m = v > 0.0 ? count(v) : 1;
   const auto at = [](double x, double low, double length, int parts) {

@@ -20,9 +20,9 @@ struct CycleSummary {
 struct RunSummary {
   double confinement_Pa = 0;
   std::optional<double> confinement_measured_Pa;  ///< of it what the specimen held up, at the end of stage 1
-  std::optional<double> peak_stress_Pa;    ///< total axial
-  std::optional<double> peak_deviator_Pa;  ///< total axial less confinement
-  bool peak_reached = false;               ///< the stress came down again after its largest value
+  std::optional<double> peak_stress_Pa;           ///< total axial
+  std::optional<double> peak_deviator_Pa;         ///< total axial less confinement
+  bool peak_reached = false;                      ///< the stress came down again after its largest value
   std::optional<double> strain_at_peak;
   std::optional<double> young_modulus_Pa;     ///< initial: slope between 5 and 25 % of the peak deviator
   std::optional<double> young_modulus_50_Pa;  ///< tangent at half the peak deviator
@@ -36,7 +36,7 @@ struct RunSummary {
   std::string first_cracks;                    ///< bts: "central", or "at the strips"
   std::optional<double> bulk_modulus_Pa;       ///< hydrostatic: slope between 5 and 25 % of the pressure
   std::vector<CycleSummary> cycles;
-  std::optional<double> alpha;  ///< area factor of the bonds
+  std::optional<double> alpha;         ///< area factor of the bonds
   std::optional<double> alpha_affine;  ///< what an intact packing with these bonds would need; after a probe
   std::optional<double> mantle_cover;  ///< of the lateral surface by its spheres, before they are scaled
   std::uint64_t particles = 0;
@@ -67,6 +67,8 @@ struct RunSummary {
   std::string state_hash;                                        ///< 16 hex digits
   std::string stopped_by;             ///< "strain", "peak drop", "interrupted", ...
   std::vector<std::string> warnings;  ///< one line each; empty when all is well
+  /// SHA-256 of the run's files, by name: curve-K.csv, cracks-K.csv
+  std::vector<std::pair<std::string, std::string>> files;
 };
 
 /// Straight line through the peaks of a series: shear strength over pressure.
@@ -84,6 +86,8 @@ struct SeriesSummary {
   int ranks = 1;
   std::vector<RunSummary> runs;             ///< run K is runs[K], curve-K.csv, results.h5:/run-K
   std::optional<MohrCoulomb> mohr_coulomb;  ///< only where there were enough peaks
+  /// SHA-256 of all files that were read, by name
+  std::vector<std::pair<std::string, std::string>> inputs{};
 };
 
 }  // namespace breccia

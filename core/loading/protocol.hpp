@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/loading/stability_checks.hpp"
 #include "core/loading/recorder.hpp"
+#include "core/loading/stability_checks.hpp"
 #include "core/world/world.hpp"
 
 namespace breccia {
@@ -42,7 +42,7 @@ struct LoadResult {
   Stopped stopped = Stopped::strain;
   std::uint64_t stage1_steps = 0;
   double held_pressure = std::numeric_limits<double>::quiet_NaN();  ///< Pa, at the end of stage 1; NaN: none
-  double run_time = 0;  ///< s, wall, of both stages
+  double run_time = 0;                                              ///< s, wall, of both stages
   std::vector<std::string> warnings;
 };
 

@@ -7,6 +7,7 @@
 #include "core/loading/error_estimate.hpp"
 #include "core/loading/strength.hpp"
 #include "core/tables/state_hash.hpp"
+#include "core/world/energies.hpp"
 
 namespace breccia {
 namespace {
@@ -44,10 +45,11 @@ void warn_of_pressure(RunSummary& run) {
   if (!run.confinement_measured_Pa) return;
   const double asked = run.confinement_Pa, held = *run.confinement_measured_Pa;
   if (std::abs(held - asked) <= 0.05 * asked) return;
-  run.warnings.push_back(fmt::format(
-      "confinement: {:.4g} MPa were asked for, {:.4g} MPa are held by the specimen at the end of stage 1; the "
-      "lateral surface is not pressed as it should be",
-      asked * 1e-6, held * 1e-6));
+  run.warnings.push_back(
+      fmt::format("confinement: {:.4g} MPa were asked for, {:.4g} MPa are held by the specimen at the end of "
+                  "stage 1; the "
+                  "lateral surface is not pressed as it should be",
+                  asked * 1e-6, held * 1e-6));
 }
 
 /// alpha gives the specimen the material's modulus. Under pressure bonds may have yielded before, which
@@ -58,11 +60,12 @@ void warn_of_modulus(const Material& material, RunSummary& run) {
   if (!run.young_modulus_Pa || !std::isfinite(*run.young_modulus_Pa)) return;
   const double ratio = *run.young_modulus_Pa / asked;
   if (ratio <= 1.1 && (ratio >= 0.9 || run.confinement_Pa > 0.0)) return;
-  run.warnings.push_back(fmt::format(
-      "young_modulus: the curve has {:.4g} GPa, {:.0f} % {} than the material's {:.4g} GPa; strengths go with "
-      "it",
-      *run.young_modulus_Pa * 1e-9, 100.0 * std::abs(ratio - 1.0), ratio > 1.0 ? "more" : "less",
-      asked * 1e-9));
+  run.warnings.push_back(
+      fmt::format("young_modulus: the curve has {:.4g} GPa, {:.0f} % {} than the material's {:.4g} GPa; "
+                  "strengths go with "
+                  "it",
+                  *run.young_modulus_Pa * 1e-9, 100.0 * std::abs(ratio - 1.0), ratio > 1.0 ? "more" : "less",
+                  asked * 1e-9));
 }
 
 /// Moduli are those of the first loading: a way up to the peak that was unloaded is no straight line.

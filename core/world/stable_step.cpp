@@ -5,6 +5,8 @@
 
 #include "core/base/error.hpp"
 #include "core/elastic/critical_step.hpp"
+#include "core/world/loop_views.hpp"
+#include "core/world/sync.hpp"
 #include "core/world/world.hpp"
 
 namespace breccia {

@@ -39,8 +39,9 @@ std::string text_of(const Size& size, const SurfaceGap& gap, double mean_radius)
 }
 
 std::string describe(const SurfaceFit& fit) {
-  std::string text = fmt::format(
-      "spheres beyond the nominal body (+) or behind it (-), in mean radii: sides {:+.2f}", -fit.across.median);
+  std::string text =
+      fmt::format("spheres beyond the nominal body (+) or behind it (-), in mean radii: sides {:+.2f}",
+                  -fit.across.median);
   if (fit.depth) text += fmt::format(" and {:+.2f}", -fit.depth->median);
   if (fit.height) text += fmt::format(", ends {:+.2f}", -fit.height->median);
   return text + fmt::format("; middle off by {:.2f}", norm(fit.offset));
@@ -76,11 +77,12 @@ std::vector<std::string> check_body(const Case& c, const Specimen& placed, const
   if (judge_offset(away) != Fit::good) {
     const Vec3 middle = s.centre ? *s.centre : middle_of(as_read, body.has);
     const Vec3 right = middle + way_in_file(as_read, mean_radius * fit.offset, s.axis, s.space);
-    tell(judge_offset(away), placed.source,
-         fmt::format("specimen.centre: the spheres' own middle lies {} away, {:.2f} mean radii; "
-                     "[{:.4g}, {:.4g}, {:.4g}] would fit",
-                     millimetres(norm(fit.offset) * mean_radius), norm(fit.offset), right.x, right.y, right.z),
-         warnings);
+    tell(
+        judge_offset(away), placed.source,
+        fmt::format("specimen.centre: the spheres' own middle lies {} away, {:.2f} mean radii; "
+                    "[{:.4g}, {:.4g}, {:.4g}] would fit",
+                    millimetres(norm(fit.offset) * mean_radius), norm(fit.offset), right.x, right.y, right.z),
+        warnings);
   }
   check_size({"specimen.diameter", box ? "sides" : "lateral surface", s.body.diameter}, fit.across);
   if (fit.depth) check_size({"specimen.depth", "sides", s.body.depth}, *fit.depth);

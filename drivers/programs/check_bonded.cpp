@@ -51,11 +51,12 @@ void check_connection(const Connection& c, const Assembly& a, const std::string&
         source, describe_pieces(c.pieces), held_bodies(a.grip));
   const double spheres = static_cast<double>(a.particles.size);
   if (!c.by_bonds)
-    warnings.push_back(
-        fmt::format("no bonds join {}: the load goes through surfaces that only touch; the bonds fall into {}",
-                    held_bodies(a.grip), describe_pieces(c.pieces)));
+    warnings.push_back(fmt::format(
+        "no bonds join {}: the load goes through surfaces that only touch; the bonds fall into {}",
+        held_bodies(a.grip), describe_pieces(c.pieces)));
   else if (c.pieces.size() > 1 && static_cast<double>(c.pieces[1]) > 0.01 * spheres)
-    warnings.push_back(fmt::format("the bonds fall into {}, no bond between them", describe_pieces(c.pieces)));
+    warnings.push_back(
+        fmt::format("the bonds fall into {}, no bond between them", describe_pieces(c.pieces)));
   if (static_cast<double>(c.loose) > 0.02 * spheres)
     warnings.push_back(fmt::format(
         "{} of {} spheres hang on nothing, {} of them without a bond: no gauge reads them, no pressure acts "

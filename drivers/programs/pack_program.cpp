@@ -51,8 +51,11 @@ void run_pack_program(const CommandLine& line) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   say(progress, report(specimen, c.specimen, seconds, line.threads));
   if (line.dry_run || line.explain) return;
-  claim_run_folder(line.out, line.force);
-  atomic_write(line.out / "case.toml", c.resolved);
+  const bool same = is_resolved_already(line.out, c.source, c.resolved);
+  FolderUse use{{"specimen.csv"}, c.inputs};
+  if (!same) use.writes.emplace_back("case.toml");
+  const FolderLock lock = claim_run_folder(line.out, line.force ? Old::replace : Old::refuse, use);
+  if (!same) atomic_write(line.out / "case.toml", c.resolved);
   write_specimen_csv(line.out / "specimen.csv", specimen);
   say(progress, fmt::format("written: {}", (line.out / "specimen.csv").string()));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "core/bonding/law_of_material.hpp"
 #include "core/bonding/pieces.hpp"
 #include "core/bonding/section_area.hpp"
@@ -20,15 +21,15 @@ namespace breccia {
 namespace {
 
 /// Reads a specimen, and puts it in place by the spheres that hang together.
-Specimen read_and_place(const Case& c, int threads, Progress& progress,
-                        std::vector<std::string>& warnings) {
+Specimen read_and_place(const Case& c, int threads, Progress& progress, std::vector<std::string>& warnings) {
   const SpecimenCase& s = c.specimen;
   const Specimen as_read = read_specimen(*s.file);
   check_sizes(as_read);
   const MainBody body = main_body(as_read, std::max(c.bonds.range, BondingRule{}.range), threads);
   Specimen placed = place_specimen(as_read, s.axis, s.centre, s.space, body.has);
   check_specimen(placed, s.body, s.space, body.has);
-  for (std::string& warning : check_body(c, placed, body, as_read, progress)) warnings.push_back(std::move(warning));
+  for (std::string& warning : check_body(c, placed, body, as_read, progress))
+    warnings.push_back(std::move(warning));
   return placed;
 }
 
@@ -38,6 +39,7 @@ Specimen make_specimen(const Case& c, int threads, Progress& progress, std::vect
   const SpecimenCase& s = c.specimen;
   if (!s.pack) return read_and_place(c, threads, progress, warnings);
   say(progress, fmt::format("packing {} {}", s.pack->spheres, s.space == Space::two_d ? "discs" : "spheres"));
+  hold_at(HoldPoint::packing);
   return pack_spheres(s.body, *s.pack);
 }
 
@@ -72,9 +74,9 @@ Features features_that_run(const Case& c, const Features& asked) {
 
 std::string describe(const Assembly& a, const Connection& connection) {
   return fmt::format(
-      "{} {}, mean radius {:.4g} mm; {} bonds within a range of {:.3g}, {:.2f} per {}{}{}{}", a.particles.size,
-      a.space == Space::two_d ? "discs" : "spheres", a.mean_radius * 1e3, a.bonds.size, a.range,
-      a.coordination, a.space == Space::two_d ? "disc" : "sphere",
+      "{} {}, mean radius {:.4g} mm; {} bonds within a range of {:.3g}, {:.2f} per {}{}{}{}",
+      a.particles.size, a.space == Space::two_d ? "discs" : "spheres", a.mean_radius * 1e3, a.bonds.size,
+      a.range, a.coordination, a.space == Space::two_d ? "disc" : "sphere",
       a.short_bonds ? fmt::format(", {} of nested spheres", a.short_bonds) : "",
       a.dropped_bonds ? fmt::format("; {} pairs in range have no common face", a.dropped_bonds) : "",
       describe(connection));
@@ -101,7 +103,8 @@ bool has_contacts(const Case& c, const std::string& test) {
 /// Whether a fluid, a wall or the halves of a shear box act on the lateral surface.
 bool acts_sideways(const Case& c, const std::string& test) {
   const auto& p = c.test.confinement;
-  return test == "usc" || test == "shear" || std::any_of(p.begin(), p.end(), [](double pressure) { return pressure > 0.0; });
+  return test == "usc" || test == "shear" ||
+         std::any_of(p.begin(), p.end(), [](double pressure) { return pressure > 0.0; });
 }
 
 void say_warnings(const std::vector<std::string>& warnings, Progress& progress) {
@@ -187,7 +190,8 @@ ReadySpecimen make_ready(const Case& c, const std::string& test, const Features&
     }
     find_factor(ready.assembly, alpha, false);
   } else {
-    ready.assembly = bonded(stand_disc(specimen, c.specimen.axis, c.test.load_axis), standing, Support::strips);
+    ready.assembly =
+        bonded(stand_disc(specimen, c.specimen.axis, c.test.load_axis), standing, Support::strips);
     look_at(ready.assembly);
     Assembly lying = bonded(specimen, body, Support::ends);
     leave_out_loose(lying, contacts, threads);

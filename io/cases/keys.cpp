@@ -74,6 +74,12 @@ constexpr std::array keys{
         .reason = "breccia-pack makes the specimen",
         .meaning = "spheres, .csv (id,x_m,y_m,z_m,r_m) or .mdpa, from the case's folder",
         .store = [](C& c, const R& r) { c.specimen.file = r.word; }},
+    Key{.name = "specimen.sha256",
+        .kind = Kind::text,
+        .not_for = "pack",
+        .reason = "breccia-pack makes the specimen",
+        .meaning = "of the file; a run is refused where it has changed since",
+        .store = [](C& c, const R& r) { c.specimen.sha256 = r.word; }},
     Key{.name = "specimen.shape",
         .kind = Kind::word,
         .default_text = "cylinder",
@@ -498,6 +504,7 @@ std::vector<Key> keys_of_laws() {
       key.dimension = dimension_of(parameter.unit);
       key.range = parameter.above ? more_than(parameter.low) : at_least(parameter.low);
       key.law = law.name;
+      key.default_text = parameter.default_text;
       key.meaning = names.emplace_back(fmt::format("law {}: {}", law.name, parameter.meaning));
       own.push_back(key);
     }

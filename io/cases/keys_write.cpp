@@ -75,21 +75,4 @@ std::string write_case(const Layer& keys, const Layer& base, const std::vector<C
   return text;
 }
 
-std::string describe_keys(const std::string& test) {
-  std::string text =
-      fmt::format("keys of a case for breccia-{} (a quantity: \"3.8 GPa\", or a bare number in SI)\n", test);
-  std::string_view table;
-  for (const Key& key : all_keys()) {
-    if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) continue;
-    if (table_of(key) != table) table = table_of(key), text += fmt::format("\n[{}]\n", table);
-    const std::string_view default_text = default_text_of(key, test);
-    text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), describe_values(key),
-                        default_text.empty() ? "-" : default_text, key.meaning);
-    if (key.name == "material.preset" && accepts(*find_key("test.confinement"), test))
-      text += fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
-                          "a table [[material.at]]: keys of the material for one confinement");
-  }
-  return text;
-}
-
 }  // namespace breccia

@@ -119,23 +119,22 @@ std::string unit_hint(const Specimen& specimen, const Body& body, Space space) {
     double factor;
     std::string_view what;
   };
-  constexpr Mistake mistakes[] = {
-      {1e6, "as if the file were in um"},
-      {1e3, "as if the file were in mm"},
-      {1e2, "as if the file were in cm"},
-      {10, "as if cm had been taken for mm, or the file were in dm"},
-      {1 / 0.0254, "as if the file were in inches"},
-      {1 / 0.3048, "as if the file were in feet"},
-      {25.4, "as if inches had been taken for mm"},
-      {2.54, "as if inches had been taken for cm"},
-      {2, "as if radii had been taken for diameters"},
-      {0.5, "as if diameters had been taken for radii"},
-      {1 / 2.54, "as if cm had been taken for inches"},
-      {1 / 25.4, "as if mm had been taken for inches"},
-      {0.1, "as if mm had been taken for cm"},
-      {1e-2, "as if specimen.diameter and height were in cm"},
-      {1e-3, "as if specimen.diameter and height were in mm"},
-      {1e-6, "as if specimen.diameter and height were in um"}};
+  constexpr Mistake mistakes[] = {{1e6, "as if the file were in um"},
+                                  {1e3, "as if the file were in mm"},
+                                  {1e2, "as if the file were in cm"},
+                                  {10, "as if cm had been taken for mm, or the file were in dm"},
+                                  {1 / 0.0254, "as if the file were in inches"},
+                                  {1 / 0.3048, "as if the file were in feet"},
+                                  {25.4, "as if inches had been taken for mm"},
+                                  {2.54, "as if inches had been taken for cm"},
+                                  {2, "as if radii had been taken for diameters"},
+                                  {0.5, "as if diameters had been taken for radii"},
+                                  {1 / 2.54, "as if cm had been taken for inches"},
+                                  {1 / 25.4, "as if mm had been taken for inches"},
+                                  {0.1, "as if mm had been taken for cm"},
+                                  {1e-2, "as if specimen.diameter and height were in cm"},
+                                  {1e-3, "as if specimen.diameter and height were in mm"},
+                                  {1e-6, "as if specimen.diameter and height were in um"}};
   const auto away = [&](const Mistake& m) { return std::abs(std::log(*times / m.factor)); };
   const Mistake& nearest_to =
       *std::min_element(std::begin(mistakes), std::end(mistakes),
@@ -162,7 +161,8 @@ void check_inside(const Specimen& specimen, const Body& body, Space space, const
   if (!worst) return;
   if (strays == count)
     fail<BadInput>(
-        "{}: sphere {} is a stray one: it hangs on nothing, {} outside the {} ({} such of {} spheres); remove "
+        "{}: sphere {} is a stray one: it hangs on nothing, {} outside the {} ({} such of {} spheres); "
+        "remove "
         "it",
         place_of(specimen, *worst), worst->id, millimetres(farthest), describe(body, space), count,
         specimen.spheres.size());

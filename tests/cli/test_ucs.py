@@ -2,13 +2,11 @@
 """A small unconfined test from case to plots: every file that is promised, and what stands in it."""
 import csv
 import json
-import subprocess
-import unittest
 import xml.etree.ElementTree as xml
 
 import h5py
 
-from programs import SOURCE, UCS, ProgramTest, run, tree
+from programs import UCS, ProgramTest, main, plot, run, tree
 
 FILES = ["case.toml", "cracks-0.csv", "curve-0.csv", "frames/run-0.pvd", "results.h5", "summary.json"]
 CURVE = ("time_s,axial_strain,platen_strain,axial_stress_Pa,radial_strain,volumetric_strain,confining_stress_Pa,"
@@ -17,7 +15,7 @@ RUN = ("confinement_Pa peak_stress_Pa peak_deviator_Pa peak_reached strain_at_pe
        "poisson_ratio crack_initiation_stress_Pa crack_damage_stress_Pa tensile_strength_Pa alpha particles bonds coordination "
        "dropped_bonds short_bonds broken_tension broken_shear steps time_step_s lowest_time_step_s "
        "critical_time_step_s step_estimates mass_factor scaled_particles run_time_s phases_s bond_updates_per_s "
-       "bond_pass_per_s energy_error rate_error step_error sampling_error kinetic_ratio platen_mismatch state_hash stopped_by warnings").split()
+       "bond_pass_per_s energy_error rate_error step_error sampling_error kinetic_ratio platen_mismatch state_hash stopped_by warnings files").split()
 
 
 class Ucs(ProgramTest):
@@ -56,7 +54,7 @@ class Ucs(ProgramTest):
 
     def test_summary(self):
         summary = self.read_summary()
-        self.assertEqual(list(summary), ["test", "version", "threads", "ranks", "runs"])
+        self.assertEqual(list(summary), ["test", "version", "threads", "ranks", "inputs", "runs"])
         self.assertEqual([summary[key] for key in ("test", "threads", "ranks")], ["ucs", 1, 1])
         (result,) = summary["runs"]
         self.assertEqual(list(result), RUN)
@@ -132,10 +130,10 @@ class Ucs(ProgramTest):
 
     def test_plots(self):
         pictures = self.work / "pictures"
-        result = subprocess.run([SOURCE / "scripts" / "plot", self.folder, "--out", pictures], capture_output=True, text=True)
+        result = plot(self.folder, "--out", pictures)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(sorted(path.name for path in pictures.iterdir()), ["cracks-0.png", "curves.png", "energy.png", "events-0.csv", "specimen.png"])
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()
