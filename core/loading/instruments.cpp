@@ -24,9 +24,9 @@ Instruments make_instruments(const World& w, const Assembly& a, const LoadTest& 
   return in;
 }
 
-Reading read(World& w, const Instruments& in) {
+StepReading read(World& w, const Instruments& in) {
   const Lap lap(w.phases, Phase::measure);
-  Reading r;
+  StepReading r;
   r.time = w.time;
   r.confining_stress = w.confinement.acting;
   if (in.loading == Loading::shear) {

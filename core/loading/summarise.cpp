@@ -81,16 +81,15 @@ void read_moduli_before(double unloaded, std::span<const CurveRow> rows, std::sp
 
 /// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the lid's
 /// pressure.
-CurveFindings findings(const std::string& test, const LoadResult& result) {
+CurveFindings findings(const LaboratoryTest& test, const LoadResult& result) {
   std::vector<CurveRow> rows = result.record.rows;
-  if (test == "shear")
+  if (test.loading == Loading::shear)
     for (CurveRow& row : rows) row.confining_stress_Pa = 0;
   CurveFindings f = read_curve(rows, result.record.mismatch);
   if (!result.cycles.empty())
     read_moduli_before(result.cycles.front().unloaded, rows, result.record.mismatch, f);
-  if (test == "shear") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};
-  if (test == "usc") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};  // of no free side
-  if (test == "bts") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = f.crack_damage_stress = {};
+  if (!test.uniform_strain) f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};
+  if (test.across) f.crack_damage_stress = {};  // of no volumetric strain
   return f;
 }
 
@@ -123,7 +122,7 @@ void forget_the_peak(const LoadResult& result, RunSummary& run) {
 
 }  // namespace
 
-RunSummary summarise(const std::string& test, const World& w, const Assembly& a, const LoadTest& load,
+RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly& a, const LoadTest& load,
                      const LoadResult& result) {
   const CurveFindings f = findings(test, result);
   RunSummary run;
@@ -170,9 +169,9 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   run.stopped_by = name_of(result.stopped);
   run.warnings = result.warnings;
   warn_of_pressure(run);
-  if (test == "bts") read_disc(w, a, result, run);
-  if (test == "tension") run.tensile_strength_Pa = run.peak_stress_Pa;
-  if (test == "shear") run.peak_deviator_Pa.reset();
+  if (test.across) read_disc(w, a, result, run);
+  if (test.tensile) run.tensile_strength_Pa = run.peak_stress_Pa;
+  if (test.loading == Loading::shear) run.peak_deviator_Pa.reset();
   std::vector<std::pair<double, double>> cycles;
   for (const Cycle& c : result.cycles) cycles.emplace_back(c.unloaded, c.reloaded);
   run.cycles = read_cycles(result.record.rows, cycles);
@@ -195,15 +194,15 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   return run;
 }
 
-void fit_peaks(SeriesSummary& series) {
+void fit_peaks(const LaboratoryTest& test, SeriesSummary& series) {
   std::vector<double> confinement, peak;
   for (const RunSummary& run : series.runs) {
     if (!run.peak_reached) continue;  // the largest stress so far is not a strength
     confinement.push_back(run.confinement_Pa);
     peak.push_back(*run.peak_stress_Pa);
   }
-  series.mohr_coulomb =
-      series.test == "shear" ? fit_shear_line(confinement, peak) : fit_mohr_coulomb(confinement, peak);
+  series.mohr_coulomb = test.line == StrengthLine::shear ? fit_shear_line(confinement, peak)
+                                                         : fit_mohr_coulomb(confinement, peak);
 }
 
 }  // namespace breccia

@@ -96,14 +96,14 @@ AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, 
 }
 
 /// In tension surfaces part.
-bool has_contacts(const Case& c, const std::string& test) {
-  return c.features.new_contacts && test != "tension";
+bool has_contacts(const Case& c, const LaboratoryTest& test) {
+  return c.features.new_contacts && test.loading != Loading::tension;
 }
 
 /// Whether a fluid, a wall or the halves of a shear box act on the lateral surface.
-bool acts_sideways(const Case& c, const std::string& test) {
+bool acts_sideways(const Case& c, const LaboratoryTest& test) {
   const auto& p = c.test.confinement;
-  return test == "usc" || test == "shear" ||
+  return test.rigid_sides || test.support == Support::halves ||
          std::any_of(p.begin(), p.end(), [](double pressure) { return pressure > 0.0; });
 }
 
@@ -113,7 +113,7 @@ void say_warnings(const std::vector<std::string>& warnings, Progress& progress) 
 
 }  // namespace
 
-std::string describe_elasticity(const Case& c, const std::string& test, const ReadySpecimen& ready,
+std::string describe_elasticity(const Case& c, const LaboratoryTest& test, const ReadySpecimen& ready,
                                 int threads) {
   Assembly a = ready.assembly;
   if (a.grip != Support::ends) return "";
@@ -136,7 +136,7 @@ std::string describe_elasticity(const Case& c, const std::string& test, const Re
       e.young_modulus * 1e-9, e.poisson_ratio, ratio, covered);
 }
 
-ReadySpecimen make_ready(const Case& c, const std::string& test, const Features& asked, int threads,
+ReadySpecimen make_ready(const Case& c, const LaboratoryTest& test, const Features& asked, int threads,
                          Progress& progress) {
   const Features features = features_that_run(c, asked);
   BondingRule rule{c.bonds.range,         c.bonds.coordination, c.bonds.area,
@@ -164,13 +164,13 @@ ReadySpecimen make_ready(const Case& c, const std::string& test, const Features&
     ready.factor = area_factor(c, a, alpha, rough, contacts, threads, progress);
     check_area_factor(ready.factor, a, ready.connection, ready.warnings);
   };
-  if (test != "bts") {
+  if (!test.across) {
     Assembly ends = bonded(specimen, body, Support::ends);
     look_at(ends);
     check_lateral_surface(ends, acts_sideways(c, test), specimen.source, ready.warnings);
     find_factor(ends, c.bonds.alpha_rule, c.test.rough_platens);
     ready.assembly = std::move(ends);
-    if (test == "shear") {
+    if (test.support == Support::halves) {
       ready.assembly = bonded(specimen, body, Support::halves);
       leave_out_loose(ready.assembly, contacts, threads);
     }

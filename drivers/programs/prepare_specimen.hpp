@@ -3,6 +3,7 @@
 #include "core/bonding/assembly.hpp"
 #include "core/bonding/pieces.hpp"
 #include "core/elastic/area_factor.hpp"
+#include "core/loading/laboratory_tests.hpp"
 #include "io/cases/case.hpp"
 #include "io/results/progress.hpp"
 
@@ -27,12 +28,11 @@ struct ReadySpecimen {
 /// What a study of the specimen asks: the modulus and Poisson ratio that an elastic probe reads with the
 /// factor in use, and how often the bonds' areas cover a section. One line; empty for a
 /// specimen that is not held at its ends.
-std::string describe_elasticity(const Case& c, const std::string& test, const ReadySpecimen& ready,
+std::string describe_elasticity(const Case& c, const LaboratoryTest& test, const ReadySpecimen& ready,
                                 int threads);
 
-/// @param test      name of the program
 /// @param asked     features of the scene
-ReadySpecimen make_ready(const Case& c, const std::string& test, const Features& asked, int threads,
+ReadySpecimen make_ready(const Case& c, const LaboratoryTest& test, const Features& asked, int threads,
                          Progress& progress);
 
 }  // namespace breccia
