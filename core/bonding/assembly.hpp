@@ -30,6 +30,7 @@ struct Assembly {
   BondTable bonds;            ///< areas with alpha = 1; stiffness and damping not yet set
   std::size_t first_top = 0;  ///< rows [particles.free, first_top) lower layer, [first_top, size) upper layer
   std::vector<Row> skin;      ///< particles at the mantle, rising rows
+  std::vector<char> loose;    ///< per particle, 1 where it hangs on nothing; empty: not looked for
   double mean_radius = 0;     ///< m
   double layer = 0;           ///< m, thickness of the held layers or strips
   double range = 0;           ///< beta that was used

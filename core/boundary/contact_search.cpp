@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/base/threads.hpp"
+#include "core/elastic/touching.hpp"
 #include "core/geometry/cell_list.hpp"
 
 namespace breccia {
@@ -99,7 +100,6 @@ bool rebuild_is_due(NeighbourList& s, const ParticleTable& p, const Partition& p
 void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const ParticleTable& p,
                             const ContactMaterial& material, const Features& features, bool ledger,
                             int threads) {
-  using std::numbers::pi;
   const bool first_list = !s.awake;
   s.awake = true;
   s.slack = s.skin;
@@ -126,15 +126,15 @@ void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const Part
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [lo, hi] = p.gid[pairs[k].a] < p.gid[pairs[k].b] ? std::pair(pairs[k].a, pairs[k].b)
                                                                 : std::pair(pairs[k].b, pairs[k].a);
-    const double touch = p.radius[lo] + p.radius[hi], smaller = std::min(p.radius[lo], p.radius[hi]);
+    const double touch = p.radius[lo] + p.radius[hi];
     const double distance = norm(p.position[hi] - p.position[lo]);
     contacts.gid_lo[k] = p.gid[lo];
     contacts.gid_hi[k] = p.gid[hi];
     contacts.row_lo[k] = lo;
     contacts.row_hi[k] = hi;
     // (B30)
-    contacts.stiffness[k] = material.young * material.alpha *
-                            (material.space == Space::two_d ? 2.0 * smaller : pi * smaller * smaller) / touch;
+    contacts.stiffness[k] =
+        contact_stiffness(material.young, material.alpha, material.space, p.radius[lo], p.radius[hi]);
     if (features.rotation) contacts.arm_offset[k] = contact_arm_offset(p.radius[lo], p.radius[hi]);
     // pairs that overlap unbonded from the start are free of stress where they are
     contacts.free_length[k] = first_list ? std::min(touch, distance) : touch;  // (B31)

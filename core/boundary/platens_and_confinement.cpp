@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -98,14 +99,33 @@ Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid)
   return c;
 }
 
+double lateral_cover(const Assembly& a) {
+  double sum = 0.0;
+  for (const Row row : a.skin) {
+    const double r = a.particles.radius[row];
+    sum += a.space == Space::two_d ? 2.0 * r * a.body.depth : std::numbers::pi * r * r;
+  }
+  return sum / a.mantle();
+}
+
+bool is_one_sphere_wide(const Assembly& a) {
+  const auto& x = a.particles.reference_position;
+  const double width = 1e-6 * a.body.diameter;
+  return std::all_of(a.skin.begin(), a.skin.end(), [&](Row row) {
+    return std::abs(x[row].x) < width && (a.space == Space::two_d || std::abs(x[row].y) < width);
+  });
+}
+
 namespace {
 
 /// Two dimensions: pressure along x on both sides; the smallest a + b z along x removes the net
 /// force and the moment about y. (B72)
 struct SideSums {
   double n = 0, z1 = 0, z2 = 0, net = 0, tilt = 0;
+  double inward = 0, side = 0, side_z = 0;  // side: 1 for each on the left, -1 on the right
   SideSums& operator+=(const SideSums& o) {
     n += o.n, z1 += o.z1, z2 += o.z2, net += o.net, tilt += o.tilt;
+    inward += o.inward, side += o.side, side_z += o.side_z;
     return *this;
   }
 };
@@ -114,11 +134,13 @@ void press_sides(Confinement& c, ParticleTable& particles, const Partition& part
   std::vector<SideSums> blocks;
   const SideSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
-    c.force[k] = {(x.x < 0.0 ? 1.0 : -1.0) * c.pressure * c.weight[k], 0.0, 0.0};
-    return SideSums{1.0, x.z, x.z * x.z, c.force[k].x, x.z * c.force[k].x};
+    const double side = x.x < 0.0 ? 1.0 : -1.0, push = c.pressure * c.weight[k];
+    c.force[k] = {side * push, 0.0, 0.0};
+    return SideSums{1.0, x.z, x.z * x.z, c.force[k].x, x.z * c.force[k].x, push, side, side * x.z};
   });
   const double det = s.n * s.z2 - s.z1 * s.z1;
   const double a = (s.net * s.z2 - s.tilt * s.z1) / det, b = (s.n * s.tilt - s.z1 * s.net) / det;
+  c.acting = (s.inward - a * s.side - b * s.side_z) / c.surface;
   for_owned_entries(partition, c.rows, [&](std::size_t k) {
     c.force[k].x -= a + b * particles.position[c.rows[k]].z;
     particles.force[c.rows[k]] += c.force[k];
@@ -129,9 +151,11 @@ void press_sides(Confinement& c, ParticleTable& particles, const Partition& part
 struct SkinSums {
   double n = 0, x1 = 0, y1 = 0, z1 = 0, z2 = 0, xz = 0, yz = 0, r2 = 0;
   double net_x = 0, net_y = 0, tilt_x = 0, tilt_y = 0;
+  double inward = 0, out_x = 0, out_y = 0, out_xz = 0, out_yz = 0;  // out: unit vectors away from the axis
   SkinSums& operator+=(const SkinSums& o) {
     n += o.n, x1 += o.x1, y1 += o.y1, z1 += o.z1, z2 += o.z2, xz += o.xz, yz += o.yz, r2 += o.r2;
     net_x += o.net_x, net_y += o.net_y, tilt_x += o.tilt_x, tilt_y += o.tilt_y;
+    inward += o.inward, out_x += o.out_x, out_y += o.out_y, out_xz += o.out_xz, out_yz += o.out_yz;
     return *this;
   }
 };
@@ -139,7 +163,9 @@ struct SkinSums {
 }  // namespace
 
 void apply_confinement(Confinement& c, ParticleTable& particles, const Partition& partition) {
-  if (c.rigid || c.pressure == 0.0) return;
+  if (c.rigid) return;
+  c.acting = 0.0;
+  if (c.pressure == 0.0) return;
   if (c.plane) return press_sides(c, particles, partition);
   // (B72): radial forces leave a net force and moments about x and y: the smallest horizontal
   // correction a + b z + c (-y, x) that removes them and makes no moment about z
@@ -147,10 +173,12 @@ void apply_confinement(Confinement& c, ParticleTable& particles, const Partition
   const SkinSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     const double radial = x.x * x.x + x.y * x.y;
-    const double inward = -c.pressure * c.weight[k] / std::sqrt(radial);
+    const double push = radial > 0.0 ? c.pressure * c.weight[k] : 0.0;
+    const double away = radial > 0.0 ? std::sqrt(radial) : 1.0, inward = -push / away;
     const Vec3& f = c.force[k] = {inward * x.x, inward * x.y, 0.0};
-    return SkinSums{1.0,       x.x,    x.y, x.z, x.z * x.z, x.x * x.z,
-                    x.y * x.z, radial, f.x, f.y, x.z * f.x, x.z * f.y};
+    const double out_x = x.x / away, out_y = x.y / away;
+    return SkinSums{1.0, x.x,       x.y,       x.z,  x.z * x.z, x.x * x.z, x.y * x.z,   radial,     f.x,
+                    f.y, x.z * f.x, x.z * f.y, push, out_x,     out_y,     out_x * x.z, out_y * x.z};
   });
   Eigen::Matrix<double, 5, 5> gram;
   // clang-format off
@@ -162,6 +190,7 @@ void apply_confinement(Confinement& c, ParticleTable& particles, const Partition
   // clang-format on
   const Eigen::Vector<double, 5> left{s.net_x, s.net_y, s.tilt_x, s.tilt_y, 0.0};
   const Eigen::Vector<double, 5> by = gram.ldlt().solve(left);
+  c.acting = (s.inward + by[0] * s.out_x + by[1] * s.out_y + by[2] * s.out_xz + by[3] * s.out_yz) / c.surface;
   for_owned_entries(partition, c.rows, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     c.force[k] -= Vec3{by[0] + by[2] * x.z - by[4] * x.y, by[1] + by[3] * x.z + by[4] * x.x, 0.0};
@@ -175,12 +204,13 @@ void restrain_laterally(Confinement& c, ParticleTable& particles, const Partitio
   const double outward = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     Vec3& force = particles.force[c.rows[k]];
-    const double part = (x.x * force.x + x.y * force.y) / std::hypot(x.x, x.y);
+    const double away = std::hypot(x.x, x.y);
+    const double part = away > 0.0 ? (x.x * force.x + x.y * force.y) / away : 0.0;
     c.force[k] = {-force.x, -force.y, 0.0};
     force.x = force.y = 0.0;
     return part;
   });
-  c.pressure = outward / c.surface;  // (B73)
+  c.pressure = c.acting = outward / c.surface;  // (B73)
 }
 
 }  // namespace breccia

@@ -48,7 +48,8 @@ void drive_platens(Platens& platens, const ParticleTable& particles, const Parti
 struct Confinement {
   bool rigid = false;   ///< x and y of the skin are fixed
   bool plane = false;   ///< two dimensions: the skin is two sides, normal to x
-  double pressure = 0;  ///< Pa, now; of a rigid wall the mean reaction
+  double pressure = 0;  ///< Pa, asked for now; of a rigid wall the mean reaction
+  double acting = 0;    ///< Pa, inward forces of this step over the nominal surface; of a rigid wall the same
   double surface = 0;   ///< m^2, nominal
   std::vector<Row> rows;
   std::vector<double> weight;  ///< m^2
@@ -58,7 +59,16 @@ struct Confinement {
 /// @param rigid  a wall instead of a fluid
 Confinement make_confinement(const Assembly& assembly, SkinWeights weights, bool rigid);
 
-/// Adds the pressure forces; their net force and moment are removed by a least-squares correction.
+/// What the spheres of the lateral surface cover of it, as disks (discs: as lines) as wide as they are: 0.65
+/// to 0.9 of the nominal surface in packings. They stand for the whole of it, so that the fewer they are,
+/// the harder each is pressed.
+double lateral_cover(const Assembly& assembly);
+
+/// True where a lateral direction has no meaning for the whole surface: all of it lies on the axis.
+bool is_one_sphere_wide(const Assembly& assembly);
+
+/// Adds the pressure forces; their net force and moment are removed by a least-squares correction. A sphere
+/// on the axis has no lateral direction and gets no force.
 void apply_confinement(Confinement& confinement, ParticleTable& particles, const Partition& partition);
 
 /// A rigid wall takes up the lateral forces of the skin, all of them summed: called when they are complete.

@@ -3,6 +3,7 @@
 #pragma once
 #include "core/base/scene_options.hpp"
 #include "core/bonding/assembly.hpp"
+#include "core/elastic/touching.hpp"
 #include "kernels/laws/material.hpp"
 
 namespace breccia {
@@ -13,6 +14,7 @@ struct AreaFactorRequest {
   Elasticity elasticity = Elasticity::paper;
   Material material;  ///< with the E and nu wanted of the specimen
   bool rough_platens = true;
+  bool contacts = false;  ///< surfaces that touch without a bond press, in the run and so in the probe
 };
 
 struct AreaFactor {
@@ -22,7 +24,12 @@ struct AreaFactor {
   double young_modulus = 0;  ///< Pa, of the specimen with this alpha, by the probe; 0 where none was made
   double poisson_ratio = 0;  ///< by the probe
   int probes = 0;
+  double affine = 0;  ///< alpha that an intact packing with so much bond area through its levels would need,
+                      ///< where a probe was made: good ones come within 0.94 to 1.2 times it
 };
+
+/// What presses without a bond in a run with contacts, with the material's stiffness and friction.
+Touching touching_of(const Assembly& assembly, const Material& material, double shear_ratio, int threads);
 
 AreaFactor find_area_factor(const Assembly& assembly, const AreaFactorRequest& request, int threads);
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/bonding/assembly.hpp"
+#include "core/elastic/touching.hpp"
 #include "core/tables/contact_table.hpp"
 #include "kernels/laws/bond_laws.hpp"
 
@@ -80,8 +81,10 @@ std::vector<double> bond_stiffness(const BondLaw& law, const ParticleTable& part
 /// @param stiffness    N/m, k_n per bond
 /// @param shear_ratio  k_s/k_n
 /// @param rough  lateral motion of the layers fixed
+/// @param touching  pairs without a bond: they press where the specimen brings them nearer, and slide where
+///                  friction does not hold them
 /// @throws BadInput when the specimen is not connected from end to end
 ElasticResponse probe(const Assembly& assembly, std::span<const double> stiffness, double shear_ratio,
-                      bool rough, int threads);
+                      bool rough, int threads, const Touching& touching = {});
 
 }  // namespace breccia

@@ -4,18 +4,26 @@
 
 namespace breccia {
 
+namespace {
+
+/// What hangs on nothing tells nothing about the strain of the specimen.
+bool is_loose(const Assembly& a, std::size_t row) { return !a.loose.empty() && a.loose[row] != 0; }
+
+}  // namespace
+
 Gauge axial_gauge(const Assembly& a) {
   Gauge g;
   const auto& x = a.particles.reference_position;
   double mean = 0.0;
   for (std::size_t row = 0; row < x.size(); ++row)
-    if (std::abs(x[row].z) < 0.25 * a.body.height) {
+    if (std::abs(x[row].z) < 0.25 * a.body.height && !is_loose(a, row)) {
       g.rows.push_back(static_cast<Row>(row));
       mean += x[row].z;
     }
   mean /= static_cast<double>(g.rows.size());
   double square = 0.0;
   for (const Row row : g.rows) square += (x[row].z - mean) * (x[row].z - mean);
+  if (!(square > 0.0)) return {};
   for (const Row row : g.rows) g.weights.push_back({0.0, 0.0, -(x[row].z - mean) / square});
   return g;
 }
@@ -26,7 +34,7 @@ Gauge lateral_gauge(const Assembly& a) {
   const bool x_only = a.body.on_edge || a.space == Space::two_d;
   Vec3 mean;
   const auto add = [&](Row row) {
-    if (std::abs(x[row].z) >= 0.2 * a.length()) return;
+    if (std::abs(x[row].z) >= 0.2 * a.length() || is_loose(a, row)) return;
     g.rows.push_back(row);
     mean += x[row];
   };
@@ -40,6 +48,7 @@ Gauge lateral_gauge(const Assembly& a) {
   const auto lever = [&](Row row) { return Vec3{x[row].x - mean.x, x_only ? 0.0 : x[row].y - mean.y, 0.0}; };
   double square = 0.0;
   for (const Row row : g.rows) square += dot(lever(row), lever(row));
+  if (!(square > 0.0)) return {};
   for (const Row row : g.rows) g.weights.push_back((-1.0 / square) * lever(row));
   return g;
 }

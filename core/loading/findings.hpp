@@ -19,9 +19,10 @@ struct CycleSummary {
 /// One run. An absent optional, and a number that is not finite, is `null` in the file.
 struct RunSummary {
   double confinement_Pa = 0;
-  std::optional<double> peak_stress_Pa;    ///< total axial
-  std::optional<double> peak_deviator_Pa;  ///< total axial less confinement
-  bool peak_reached = false;               ///< the stress came down again after its largest value
+  std::optional<double> confinement_measured_Pa;  ///< of it what the specimen held up, at the end of stage 1
+  std::optional<double> peak_stress_Pa;           ///< total axial
+  std::optional<double> peak_deviator_Pa;         ///< total axial less confinement
+  bool peak_reached = false;                      ///< the stress came down again after its largest value
   std::optional<double> strain_at_peak;
   std::optional<double> young_modulus_Pa;     ///< initial: slope between 5 and 25 % of the peak deviator
   std::optional<double> young_modulus_50_Pa;  ///< tangent at half the peak deviator
@@ -35,8 +36,12 @@ struct RunSummary {
   std::string first_cracks;                    ///< bts: "central", or "at the strips"
   std::optional<double> bulk_modulus_Pa;       ///< hydrostatic: slope between 5 and 25 % of the pressure
   std::vector<CycleSummary> cycles;
-  std::optional<double> alpha;  ///< area factor of the bonds
+  std::optional<double> alpha;         ///< area factor of the bonds
+  std::optional<double> alpha_affine;  ///< what an intact packing with these bonds would need; after a probe
+  std::optional<double> mantle_cover;  ///< of the lateral surface by its spheres, before they are scaled
   std::uint64_t particles = 0;
+  std::uint64_t loose_particles = 0;  ///< that hang on nothing between the held ends
+  std::uint64_t pieces = 1;           ///< of two spheres or more, into which the bonds fall
   std::uint64_t bonds = 0;
   double coordination = 0;          ///< bonds per particle, times two
   std::uint64_t dropped_bonds = 0;  ///< in range, without an area

@@ -24,11 +24,11 @@ Instruments make_instruments(const World& w, const Assembly& a, const LoadTest& 
   return in;
 }
 
-Reading read(World& w, const Instruments& in) {
+StepReading read(World& w, const Instruments& in) {
   const Lap lap(w.phases, Phase::measure);
-  Reading r;
+  StepReading r;
   r.time = w.time;
-  r.confining_stress = w.confinement.pressure;
+  r.confining_stress = w.confinement.acting;
   if (in.loading == Loading::shear) {
     // of a shear box: the strain is the shift over its width, the stress is that of the band
     r.axial_strain = r.platen_strain = (shear_travel(w.platens) - in.zeros.shear) / w.body.diameter;

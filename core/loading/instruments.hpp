@@ -22,7 +22,7 @@ Instruments make_instruments(const World& world, const Assembly& assembly, const
                              const Datum* zeros = nullptr);
 
 /// One reading after a step. (B91)
-Reading read(World& world, const Instruments& instruments);
+StepReading read(World& world, const Instruments& instruments);
 
 /// Platen travel of the loading direction since the start, m.
 double travel(const World& world, const Instruments& instruments);

@@ -13,6 +13,7 @@
 #include "core/stepping/step.hpp"
 #include "core/world/energies.hpp"
 #include "core/world/energy_accounting.hpp"
+#include "core/world/stress.hpp"
 #include "core/world/sync.hpp"
 
 namespace breccia {
@@ -49,7 +50,7 @@ CurveRow state_row(World& w) {
   } else {
     row.stored_J = stored_energy(w);
   }
-  row.confining_stress_Pa = w.confinement.pressure;
+  row.confining_stress_Pa = w.confinement.acting;
   return row;
 }
 
@@ -166,6 +167,7 @@ bool press_hydrostatically(Run& run) {
     if (checkpoint_if_due(run)) return false;
     stress = 0.0;
   }
+  if (run.test.loading != Loading::shear) run.result.held_pressure = held_pressure(w);
   // the lid of a shear box stays under its pressure
   w.platens.servo = run.test.loading == Loading::shear;
   return true;
@@ -288,6 +290,7 @@ void press_evenly(Run& run) {
     tell(run, 1, done, row);
     frame_if_due(run, done, row, done >= 1.0);
     if (done >= 1.0) {
+      run.result.held_pressure = held_pressure(w);
       run.result.stopped = Stopped::pressure;
       return;
     }

@@ -3,6 +3,7 @@
 // docs/model.md, "Laboratory tests".
 #pragma once
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,8 @@ struct LoadResult {
   std::vector<Cycle> cycles;
   Stopped stopped = Stopped::strain;
   std::uint64_t stage1_steps = 0;
-  double run_time = 0;  ///< s, wall, of both stages
+  double held_pressure = std::numeric_limits<double>::quiet_NaN();  ///< Pa, at the end of stage 1; NaN: none
+  double run_time = 0;                                              ///< s, wall, of both stages
   std::vector<std::string> warnings;
 };
 

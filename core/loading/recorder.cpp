@@ -27,7 +27,7 @@ void merge_pairs(Recorder& r) {
 
 }  // namespace
 
-bool add_reading(Recorder& r, const Reading& x) {
+bool add_reading(Recorder& r, const StepReading& x) {
   r.sum.time += x.time;
   r.sum.axial_strain += x.axial_strain;
   r.sum.platen_strain += x.platen_strain;

@@ -8,7 +8,7 @@
 namespace breccia {
 
 /// What is read at every step.
-struct Reading {
+struct StepReading {
   double time = 0, axial_strain = 0, platen_strain = 0, axial_stress = 0, confining_stress = 0,
          radial_strain = 0, volumetric_strain = 0, mismatch = 0;
 };
@@ -19,12 +19,12 @@ struct Recorder {
   std::vector<CurveRow> rows;
   std::vector<double> mismatch;  ///< Pa, per row
 
-  Reading sum;
+  StepReading sum;
   std::size_t steps = 0;  ///< in `sum`
 };
 
 /// Adds a step; true when a row is due.
-bool add_reading(Recorder& recorder, const Reading& reading);
+bool add_reading(Recorder& recorder, const StepReading& reading);
 
 /// Closes the row: means of the readings, and what is known at its end (broken bonds, energies)
 /// from `end`.

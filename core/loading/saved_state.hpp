@@ -87,6 +87,7 @@ void for_each_number_of_test(S& state, R& result, Visit&& visit) {
   visit("steps_per_row", result.record.steps_per_row);
   visit("cycles", result.cycles);
   visit("stage1_steps", result.stage1_steps);
+  visit("held_pressure", result.held_pressure);
   visit("run_time", result.run_time);
 }
 

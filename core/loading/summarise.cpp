@@ -40,6 +40,34 @@ void warn_if_dynamic(const CurveFindings& f, RunSummary& run) {
         100 * f.platen_mismatch));
 }
 
+/// The pressure that was asked for and the one that acts.
+void warn_of_pressure(RunSummary& run) {
+  if (!run.confinement_measured_Pa) return;
+  const double asked = run.confinement_Pa, held = *run.confinement_measured_Pa;
+  if (std::abs(held - asked) <= 0.05 * asked) return;
+  run.warnings.push_back(
+      fmt::format("confinement: {:.4g} MPa were asked for, {:.4g} MPa are held by the specimen at the end of "
+                  "stage 1; the "
+                  "lateral surface is not pressed as it should be",
+                  asked * 1e-6, held * 1e-6));
+}
+
+/// alpha gives the specimen the material's modulus. Under pressure bonds may have yielded before, which
+/// makes it softer; nothing makes it stiffer.
+void warn_of_modulus(const Material& material, RunSummary& run) {
+  if (material.own.contains("normal_stiffness")) return;  // a law with a stiffness of its own has no alpha
+  const double asked = material.young_modulus;
+  if (!run.young_modulus_Pa || !std::isfinite(*run.young_modulus_Pa)) return;
+  const double ratio = *run.young_modulus_Pa / asked;
+  if (ratio <= 1.1 && (ratio >= 0.9 || run.confinement_Pa > 0.0)) return;
+  run.warnings.push_back(
+      fmt::format("young_modulus: the curve has {:.4g} GPa, {:.0f} % {} than the material's {:.4g} GPa; "
+                  "strengths go with "
+                  "it",
+                  *run.young_modulus_Pa * 1e-9, 100.0 * std::abs(ratio - 1.0), ratio > 1.0 ? "more" : "less",
+                  asked * 1e-9));
+}
+
 /// Moduli are those of the first loading: a way up to the peak that was unloaded is no straight line.
 void read_moduli_before(double unloaded, std::span<const CurveRow> rows, std::span<const double> mismatch,
                         CurveFindings& f) {
@@ -53,16 +81,15 @@ void read_moduli_before(double unloaded, std::span<const CurveRow> rows, std::sp
 
 /// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the lid's
 /// pressure.
-CurveFindings findings(const std::string& test, const LoadResult& result) {
+CurveFindings findings(const LaboratoryTest& test, const LoadResult& result) {
   std::vector<CurveRow> rows = result.record.rows;
-  if (test == "shear")
+  if (test.loading == Loading::shear)
     for (CurveRow& row : rows) row.confining_stress_Pa = 0;
   CurveFindings f = read_curve(rows, result.record.mismatch);
   if (!result.cycles.empty())
     read_moduli_before(result.cycles.front().unloaded, rows, result.record.mismatch, f);
-  if (test == "shear") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};
-  if (test == "usc") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};  // of no free side
-  if (test == "bts") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = f.crack_damage_stress = {};
+  if (!test.uniform_strain) f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};
+  if (test.across) f.crack_damage_stress = {};  // of no volumetric strain
   return f;
 }
 
@@ -95,7 +122,7 @@ void forget_the_peak(const LoadResult& result, RunSummary& run) {
 
 }  // namespace
 
-RunSummary summarise(const std::string& test, const World& w, const Assembly& a, const LoadTest& load,
+RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly& a, const LoadTest& load,
                      const LoadResult& result) {
   const CurveFindings f = findings(test, result);
   RunSummary run;
@@ -114,6 +141,7 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   run.crack_initiation_stress_Pa = f.crack_initiation_stress;
   run.crack_damage_stress_Pa = f.crack_damage_stress;
   run.alpha = w.alpha;
+  if (std::isfinite(result.held_pressure)) run.confinement_measured_Pa = result.held_pressure;
   run.particles = w.particles.size;
   run.bonds = w.bonds.size;
   run.coordination = a.coordination;
@@ -140,9 +168,10 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   run.state_hash = state_hash(w.particles, w.bonds);
   run.stopped_by = name_of(result.stopped);
   run.warnings = result.warnings;
-  if (test == "bts") read_disc(w, a, result, run);
-  if (test == "tension") run.tensile_strength_Pa = run.peak_stress_Pa;
-  if (test == "shear") run.peak_deviator_Pa.reset();
+  warn_of_pressure(run);
+  if (test.across) read_disc(w, a, result, run);
+  if (test.tensile) run.tensile_strength_Pa = run.peak_stress_Pa;
+  if (test.loading == Loading::shear) run.peak_deviator_Pa.reset();
   std::vector<std::pair<double, double>> cycles;
   for (const Cycle& c : result.cycles) cycles.emplace_back(c.unloaded, c.reloaded);
   run.cycles = read_cycles(result.record.rows, cycles);
@@ -154,6 +183,7 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
     return run;
   }
   warn_if_dynamic(f, run);
+  warn_of_modulus(w.material, run);
   if (run.peak_reached) {
     const ErrorEstimate e =
         estimate_error(f.kinetic_ratio, f.platen_mismatch, run.energy_error, run.particles);
@@ -164,15 +194,15 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   return run;
 }
 
-void fit_peaks(SeriesSummary& series) {
+void fit_peaks(const LaboratoryTest& test, SeriesSummary& series) {
   std::vector<double> confinement, peak;
   for (const RunSummary& run : series.runs) {
     if (!run.peak_reached) continue;  // the largest stress so far is not a strength
     confinement.push_back(run.confinement_Pa);
     peak.push_back(*run.peak_stress_Pa);
   }
-  series.mohr_coulomb =
-      series.test == "shear" ? fit_shear_line(confinement, peak) : fit_mohr_coulomb(confinement, peak);
+  series.mohr_coulomb = test.line == StrengthLine::shear ? fit_shear_line(confinement, peak)
+                                                         : fit_mohr_coulomb(confinement, peak);
 }
 
 }  // namespace breccia

@@ -1,6 +1,7 @@
 #include "core/world/stable_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/elastic/critical_step.hpp"
@@ -56,6 +57,16 @@ std::vector<std::size_t> uncounted(const ContactTable& c, const Pairs& counted) 
   return rows;
 }
 
+[[noreturn]] void refuse_step(const World& w) {
+  const auto& r = w.particles.radius;
+  const auto smallest =
+      std::min_element(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(w.particles.size));
+  fail<BadInput>(
+      "time: no step can be found, the critical one is {} s; check the material, and sphere {} of radius "
+      "{:.3g} m",
+      w.critical_dt, w.particles.gid[static_cast<std::size_t>(smallest - r.begin())], *smallest);
+}
+
 /// What an estimate may be, which comes from below.
 constexpr double largest_number = 0.98;
 
@@ -79,6 +90,7 @@ void choose_step(World& w) {
   w.dashpots.held_step = o.damping_step;
   sum_loads(w.dashpots, w.particles, w.bonds);
   w.critical_dt = critical_time_step(step_scene(w));
+  if (!(std::isfinite(w.critical_dt) && w.critical_dt > 0.0)) refuse_step(w);
   w.dt = w.step_monitor.first_dt = o.safety * w.critical_dt;  // (P11)
   set_bond_dashpots(w);
 }

@@ -1,5 +1,7 @@
 #include "core/world/stress.hpp"
 
+#include <cmath>
+
 #include "kernels/loops/bond_energy.hpp"
 
 namespace breccia {
@@ -50,6 +52,46 @@ Stress mean_stress_tensor(const World& w) {
                    add_product(s, distance / w.volume, on_lo, n);
                  });
   return s;
+}
+
+double held_pressure(const World& w) {
+  const Confinement& c = w.confinement;
+  const ParticleTable& p = w.particles;
+  const auto outward = [&](Row row, const Vec3& f) {
+    if (row >= p.free) return 0.0;  // of a rough platen's layer the platen holds some of it
+    const Vec3& x = p.position[row];
+    if (c.plane) return x.x < 0.0 ? -f.x : f.x;
+    const double away = std::hypot(x.x, x.y);
+    return away > 0.0 ? (x.x * f.x + x.y * f.y) / away : 0.0;
+  };
+  std::vector<double> blocks;
+  const double pressed = -sum_listed(w.partition, c.rows, 1, blocks,
+                                     [&](std::size_t k) { return outward(c.rows[k], c.force[k]); });
+  if (!(pressed > 0.0)) return 0.0;
+  const auto held_by = [&](Row lo, Row hi, const Vec3& on_lo) {
+    return outward(lo, on_lo) - outward(hi, on_lo);
+  };
+  const bool coupled = w.features.criterion == Criterion::coupled;
+  const BondTable& b = w.bonds;
+  const auto bonds_hold = [&](const auto& law) {
+    return sum_pairs(w.partition, b, w.options.threads, blocks, [&](std::size_t k) {
+      const Vec3 l = p.position[b.row_hi[k]] - p.position[b.row_lo[k]];
+      const double distance = norm(l);
+      const BondForce<double> f =
+          force_of_state(law, constants_of_bond(b, k), history_of_bond(b, k), distance, coupled);
+      return held_by(b.row_lo[k], b.row_hi[k], (f.normal / distance) * l + f.shear);
+    });
+  };
+  double held = std::visit(bonds_hold, w.law);
+  const ContactTable& t = w.contacts;
+  if (w.neighbour_list.awake)
+    held += sum_pairs(w.partition, t, w.options.threads, blocks, [&](std::size_t k) {
+      const Vec3 l = p.position[t.row_hi[k]] - p.position[t.row_lo[k]];
+      const double distance = norm(l), overlap = t.free_length[k] - distance;
+      if (overlap <= 0.0) return 0.0;
+      return held_by(t.row_lo[k], t.row_hi[k], (-t.stiffness[k] * overlap / distance) * l + t.shear_force[k]);
+    });
+  return c.acting * held / pressed;
 }
 
 void fill_stress_columns(World& w) {

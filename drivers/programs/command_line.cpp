@@ -161,9 +161,4 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
       several_ranks);
 }
 
-int run_laboratory_test(const std::string& name, const std::string& about, int argc, char** argv,
-                        const std::function<void(const CommandLine&)>& body) {
-  return run_program(name, about, argc, argv, body, {}, true);
-}
-
 }  // namespace breccia

@@ -53,8 +53,5 @@ int run_body(const std::string& program, int threads, const std::function<void()
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,
                 const std::function<void(const CommandLine&)>& body, const std::string& keys = {},
                 bool several_ranks = false, std::string (*reference)() = nullptr);
-/// The same for a laboratory test, which runs on any number of ranks.
-int run_laboratory_test(const std::string& name, const std::string& about, int argc, char** argv,
-                        const std::function<void(const CommandLine&)>& body);
 
 }  // namespace breccia

@@ -10,9 +10,12 @@
 #include "core/distributed/distribute.hpp"
 #include "core/distributed/gather.hpp"
 #include "core/loading/summarise.hpp"
+#include "core/world/fracture_energies.hpp"
 #include "core/world/make_world.hpp"
 #include "core/world/stress.hpp"
+#include "drivers/programs/command_line.hpp"
 #include "drivers/programs/prepare_specimen.hpp"
+#include "drivers/programs/scene_of_case.hpp"
 #include "io/cases/changed_keys.hpp"
 #include "io/files/atomic_write.hpp"
 #include "io/files/digest.hpp"
@@ -31,69 +34,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Loading loading_of(const std::string& test) {
-  if (test == "tension") return Loading::tension;
-  if (test == "shear") return Loading::shear;
-  if (test == "hydrostatic") return Loading::hydrostatic;
-  return Loading::compression;
-}
-
-}  // namespace
-
-LoadTest load_test(const Case& c, const std::string& test, std::size_t run) {
-  LoadTest load;
-  load.loading = loading_of(test);
-  load.confinement = c.test.confinement[run];
-  load.platen_speed = c.test.platen_speed;
-  load.stop_strain = c.test.stop_strain;
-  load.stop_after_peak = c.test.stop_after_peak;
-  load.frames = c.frames;
-  load.unload_at = c.test.unload_at;
-  load.unload_to = c.test.unload_to;
-  return load;
-}
-
-WorldOptions world_options(const Case& c, const std::string& test, const Features& asked, int threads) {
-  WorldOptions o;
-  o.features = asked;
-  o.new_contacts = c.features.new_contacts;
-  o.rough_platens = test == "shear" || c.test.rough_platens;
-  o.rigid_skin = test == "usc";
-  o.skin_weights = c.test.skin_weights;
-  o.cracks = c.cracks;
-  o.contact_damping = c.damping.contact;
-  o.paper_form = c.damping.paper_form;
-  o.damping_scheme = c.damping.scheme;
-  o.global_damping = {c.damping.translation, c.damping.rotation};
-  o.safety = c.safety;
-  if (c.mass_scaling) o.mass_factor = c.mass_factor;
-  o.scatter = c.scatter;
-  o.precision = c.precision;
-  o.ledger = c.features.energy_ledger;
-  o.threads = threads;
-  return o;
-}
-
-namespace {
-
-/// Energy per area that the bonds need to part, mean over the bonds; the law's delta fixes it.
-/// (B19)
-template <class Law>
-std::string fracture_energies(const World& w, const Law& law) {
-  double normal = 0, shear = 0, area = 0;
-  for (std::size_t k = 0; k < w.bonds.size; ++k) {
-    const BondConstants<double> bond = constants_of_bond(w.bonds, k);
-    const auto limits = limits_of(law, bond);
-    const double length = strain_length(law.young, bond);
-    normal +=
-        0.5 * limits.tension * limits.tension / bond.stiffness * (1.0 + delta_normal(law.failure, length));
-    if (law.shear_ratio > 0)
-      shear += 0.5 * limits.cohesion * limits.cohesion / (law.shear_ratio * bond.stiffness) *
-               (1.0 + delta_shear(law.failure, length));
-    area += bond.strength_area;
-  }
-  return fmt::format("fracture energies of the bonds, mean: G_I {:.3g}, G_II {:.3g} J/m^2", normal / area,
-                     shear / area);
+std::string fracture_energies_line(const World& w) {
+  const FractureEnergies g = fracture_energies(w);
+  return fmt::format("fracture energies of the bonds, mean: G_I {:.3g}, G_II {:.3g} J/m^2", g.normal,
+                     g.shear);
 }
 
 std::string scaled_masses(const World& w) {
@@ -108,9 +52,7 @@ std::string step_line(const World& w, double safety) {
                          ? ""
                          : fmt::format(", {} dashpots", name_of(w.options.damping_scheme)),
                      scaled_masses(w),
-                     w.options.features.breakage
-                         ? std::visit([&](const auto& law) { return fracture_energies(w, law); }, w.law)
-                         : "unbreakable bonds");
+                     w.options.features.breakage ? fracture_energies_line(w) : "unbreakable bonds");
 }
 
 std::string title_of(const Case& c, std::size_t k) {
@@ -123,7 +65,7 @@ std::string title_of(const Case& c, std::size_t k) {
 struct RunOfSeries {
   const Case& c;
   const Ranks& ranks;
-  const std::string& test;
+  const LaboratoryTest& test;
   std::size_t k = 0;
   const fs::path& folder;
   Progress& progress;
@@ -234,9 +176,18 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
   return summary;
 }
 
-std::string result_line(const Case& c, std::size_t k, const std::string& test, const RunSummary& run) {
+/// What the summary of a run says of its specimen.
+void note_specimen(const ReadySpecimen& ready, RunSummary& run) {
+  run.loose_particles = ready.connection.loose;
+  run.pieces = ready.connection.pieces.size();
+  if (ready.factor.affine > 0.0) run.alpha_affine = ready.factor.affine;
+  if (!ready.assembly.body.on_edge) run.mantle_cover = lateral_cover(ready.assembly);
+  run.warnings.insert(run.warnings.begin(), ready.warnings.begin(), ready.warnings.end());
+}
+
+std::string result_line(const Case& c, std::size_t k, const LaboratoryTest& test, const RunSummary& run) {
   const std::string what =
-      test == "hydrostatic"
+      !test.strain_ends_it
           ? fmt::format("bulk modulus {:.2f} GPa", run.bulk_modulus_Pa.value_or(0) * 1e-9)
           : fmt::format("peak {:.2f} MPa at strain {:.5f}", run.peak_stress_Pa.value_or(0) * 1e-6,
                         run.strain_at_peak.value_or(0));
@@ -312,9 +263,7 @@ std::vector<std::string> written_by(const Case& c, const CommandLine& line, bool
   return names;
 }
 
-}  // namespace
-
-void run_test_program(const CommandLine& line) {
+void run_series(const LaboratoryTest& test, const CommandLine& line) {
   const Case c = load_case(line.case_file, line.sets, line.program);
   const Ranks& ranks = line.ranks;
   Progress progress = make_progress(line.quiet || !ranks.is_root());
@@ -325,12 +274,12 @@ void run_test_program(const CommandLine& line) {
   if (work.all) return;
   const std::optional<FoundCheckpoint>& found = work.checkpoint;
   const Features asked = asked_features(c);
-  const ReadySpecimen ready = make_ready(c, line.program, asked, line.threads, progress);
-  const WorldOptions options = world_options(c, line.program, asked, line.threads);
+  const ReadySpecimen ready = make_ready(c, test, asked, line.threads, progress);
+  const WorldOptions options = world_options(c, test, asked, line.threads);
   if (line.explain || line.dry_run) {
     const World w = make_world(ready.assembly, c.materials.front(), ready.factor, options);
     say(progress, step_line(w, c.safety));
-    if (const std::string elastic = describe_elasticity(c, ready, line.threads); !elastic.empty())
+    if (const std::string elastic = describe_elasticity(c, test, ready, line.threads); !elastic.empty())
       say(progress, elastic);
     if (line.explain) say(progress, "\n" + explain(w));
     return;
@@ -367,18 +316,28 @@ void run_test_program(const CommandLine& line) {
     }
     const std::string finished = runs_text(series.runs);
     series.runs.push_back(
-        run_one({c, ranks, line.program, k, line.out, progress}, w, ready.assembly, finished, state, result));
+        run_one({c, ranks, test, k, line.out, progress}, w, ready.assembly, finished, state, result));
+    note_specimen(ready, series.runs.back());
     stopped = result.stopped;
     if (!ranks.is_root()) continue;
-    fit_peaks(series);
+    fit_peaks(test, series);
     write_summary(line.out / "summary.json", series);
-    say(progress, result_line(c, k, line.program, series.runs.back()));
+    say(progress, result_line(c, k, test, series.runs.back()));
     hold_at(HoldPoint::run);
   }
   if (!ranks.is_root()) return;
   if (stopped != Stopped::interrupted) remove_checkpoints(line.out);
   say(progress, "\n" + format_summary_table(series, line.out));
   if (stopped == Stopped::interrupted) say(progress, "interrupted; --resume goes on from here");
+}
+
+}  // namespace
+
+int run_laboratory_test(std::string_view name, int argc, char** argv) {
+  const LaboratoryTest& test = *find_laboratory_test(name);
+  return run_program(
+      std::string(name), std::string(test.about), argc, argv,
+      [&](const CommandLine& line) { run_series(test, line); }, {}, true);
 }
 
 }  // namespace breccia

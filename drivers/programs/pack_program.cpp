@@ -46,7 +46,8 @@ void run_pack_program(const CommandLine& line) {
   const Case c = load_case(line.case_file, line.sets, line.program);
   Progress progress = make_progress(line.quiet);
   const auto start = std::chrono::steady_clock::now();
-  const Specimen specimen = make_specimen(c, progress);
+  std::vector<std::string> warnings;  // none of what was packed here
+  const Specimen specimen = make_specimen(c, line.threads, progress, warnings);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   say(progress, report(specimen, c.specimen, seconds, line.threads));
   if (line.dry_run || line.explain) return;

@@ -2,28 +2,45 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 #include "core/base/hold.hpp"
 #include "core/bonding/law_of_material.hpp"
+#include "core/bonding/pieces.hpp"
 #include "core/bonding/section_area.hpp"
 #include "core/elastic/elastic_network.hpp"
+#include "drivers/programs/check_body.hpp"
+#include "drivers/programs/check_bonded.hpp"
 #include "io/cases/keys_material.hpp"
 #include "io/specimens/read_specimen.hpp"
 #include "kernels/loops/bond_pass.hpp"
 
 namespace breccia {
 
-Specimen make_specimen(const Case& c, Progress& progress) {
+namespace {
+
+/// Reads a specimen, and puts it in place by the spheres that hang together.
+Specimen read_and_place(const Case& c, int threads, Progress& progress, std::vector<std::string>& warnings) {
   const SpecimenCase& s = c.specimen;
-  if (s.pack) {
-    say(progress,
-        fmt::format("packing {} {}", s.pack->spheres, s.space == Space::two_d ? "discs" : "spheres"));
-    hold_at(HoldPoint::packing);
-    return pack_spheres(s.body, *s.pack);
-  }
-  Specimen specimen = place_specimen(read_specimen(*s.file), s.axis, s.centre, s.space);
-  check_specimen(specimen, s.body, s.space);
-  return specimen;
+  const Specimen as_read = read_specimen(*s.file);
+  check_sizes(as_read);
+  const MainBody body = main_body(as_read, std::max(c.bonds.range, BondingRule{}.range), threads);
+  Specimen placed = place_specimen(as_read, s.axis, s.centre, s.space, body.has);
+  check_specimen(placed, s.body, s.space, body.has);
+  for (std::string& warning : check_body(c, placed, body, as_read, progress))
+    warnings.push_back(std::move(warning));
+  return placed;
+}
+
+}  // namespace
+
+Specimen make_specimen(const Case& c, int threads, Progress& progress, std::vector<std::string>& warnings) {
+  const SpecimenCase& s = c.specimen;
+  if (!s.pack) return read_and_place(c, threads, progress, warnings);
+  say(progress, fmt::format("packing {} {}", s.pack->spheres, s.space == Space::two_d ? "discs" : "spheres"));
+  hold_at(HoldPoint::packing);
+  return pack_spheres(s.body, *s.pack);
 }
 
 Features asked_features(const Case& c) {
@@ -55,19 +72,20 @@ Features features_that_run(const Case& c, const Features& asked) {
   }
 }
 
-std::string describe(const Assembly& a) {
+std::string describe(const Assembly& a, const Connection& connection) {
   return fmt::format(
-      "{} {}, mean radius {:.4g} mm; {} bonds within a range of {:.3g}, {:.2f} per {}{}{}", a.particles.size,
-      a.space == Space::two_d ? "discs" : "spheres", a.mean_radius * 1e3, a.bonds.size, a.range,
-      a.coordination, a.space == Space::two_d ? "disc" : "sphere",
+      "{} {}, mean radius {:.4g} mm; {} bonds within a range of {:.3g}, {:.2f} per {}{}{}{}",
+      a.particles.size, a.space == Space::two_d ? "discs" : "spheres", a.mean_radius * 1e3, a.bonds.size,
+      a.range, a.coordination, a.space == Space::two_d ? "disc" : "sphere",
       a.short_bonds ? fmt::format(", {} of nested spheres", a.short_bonds) : "",
-      a.dropped_bonds ? fmt::format("; {} pairs in range have no common face", a.dropped_bonds) : "");
+      a.dropped_bonds ? fmt::format("; {} pairs in range have no common face", a.dropped_bonds) : "",
+      describe(connection));
 }
 
-AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, bool rough, int threads,
-                       Progress& progress) {
+AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, bool rough, bool contacts,
+                       int threads, Progress& progress) {
   const AreaFactor f = find_area_factor(
-      assembly, {rule, c.bonds.alpha, c.bonds.elasticity, c.materials.front(), rough}, threads);
+      assembly, {rule, c.bonds.alpha, c.bonds.elasticity, c.materials.front(), rough, contacts}, threads);
   const BondLaw law = law_of(c.materials.front(), f.shear_ratio);
   say(progress, fmt::format("alpha {:.4f} (areas tile space {:.3f} times), k_s/k_n {:.4f}{}", f.alpha,
                             f.fabric, std::visit([](const auto& l) { return l.shear_ratio; }, law),
@@ -77,9 +95,26 @@ AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, 
   return f;
 }
 
+/// In tension surfaces part.
+bool has_contacts(const Case& c, const LaboratoryTest& test) {
+  return c.features.new_contacts && test.loading != Loading::tension;
+}
+
+/// Whether a fluid, a wall or the halves of a shear box act on the lateral surface.
+bool acts_sideways(const Case& c, const LaboratoryTest& test) {
+  const auto& p = c.test.confinement;
+  return test.rigid_sides || test.support == Support::halves ||
+         std::any_of(p.begin(), p.end(), [](double pressure) { return pressure > 0.0; });
+}
+
+void say_warnings(const std::vector<std::string>& warnings, Progress& progress) {
+  for (const std::string& warning : warnings) say(progress, "warning: " + warning);
+}
+
 }  // namespace
 
-std::string describe_elasticity(const Case& c, const ReadySpecimen& ready, int threads) {
+std::string describe_elasticity(const Case& c, const LaboratoryTest& test, const ReadySpecimen& ready,
+                                int threads) {
   Assembly a = ready.assembly;
   if (a.grip != Support::ends) return "";
   const Material& m = c.materials.front();
@@ -89,21 +124,25 @@ std::string describe_elasticity(const Case& c, const ReadySpecimen& ready, int t
                              .mean /
                          a.section();
   for (double& area : a.bonds.area) area *= ready.factor.alpha;
+  Touching touching;
+  if (has_contacts(c, test)) touching = touching_of(a, m, ready.factor.shear_ratio, threads);
+  for (double& stiffness : touching.contacts.stiffness) stiffness *= ready.factor.alpha;
   const BondLaw law = law_of(m, ready.factor.shear_ratio);
   const double ratio = std::visit([](const auto& l) { return l.shear_ratio; }, law);
   const ElasticResponse e =
-      probe(a, bond_stiffness(law, a.particles, a.bonds), ratio, c.test.rough_platens, threads);
+      probe(a, bond_stiffness(law, a.particles, a.bonds), ratio, c.test.rough_platens, threads, touching);
   return fmt::format(
       "specimen: E {:.7g} GPa, nu {:.6f} with k_s/k_n {:.4f}; their areas cover a section {:.4f} times",
       e.young_modulus * 1e-9, e.poisson_ratio, ratio, covered);
 }
 
-ReadySpecimen make_ready(const Case& c, const std::string& test, const Features& asked, int threads,
+ReadySpecimen make_ready(const Case& c, const LaboratoryTest& test, const Features& asked, int threads,
                          Progress& progress) {
   const Features features = features_that_run(c, asked);
   BondingRule rule{c.bonds.range,         c.bonds.coordination, c.bonds.area,
                    c.bonds.strength_area, c.specimen.space,     Support::ends};
-  const Specimen specimen = make_specimen(c, progress);
+  ReadySpecimen ready;
+  const Specimen specimen = make_specimen(c, threads, progress, ready.warnings);
   Body body = c.specimen.body;
   if (c.specimen.space == Space::two_d) {  // one metre thick
     if (body.shape == Shape::box)
@@ -111,36 +150,54 @@ ReadySpecimen make_ready(const Case& c, const std::string& test, const Features&
     else
       body.height = 1.0;
   }
-  ReadySpecimen ready;
-  const auto bonded = [&](const Specimen& s, const Body& b, Support grip) {
-    rule.grip = grip;
+  const auto bonded = [&](const Specimen& s, const Body& b, Support support) {
+    rule.grip = support;
     return assemble(s, b, rule, features, threads, asked.rotation);
   };
-  if (test != "bts") {
+  const bool contacts = has_contacts(c, test);
+  const auto look_at = [&](Assembly& a) {
+    ready.connection = leave_out_loose(a, contacts, threads);
+    say(progress, describe(a, ready.connection));
+    check_connection(ready.connection, a, specimen.source, ready.warnings);
+  };
+  const auto find_factor = [&](const Assembly& a, AlphaRule alpha, bool rough) {
+    ready.factor = area_factor(c, a, alpha, rough, contacts, threads, progress);
+    check_area_factor(ready.factor, a, ready.connection, ready.warnings);
+  };
+  if (!test.across) {
     Assembly ends = bonded(specimen, body, Support::ends);
-    say(progress, describe(ends));
-    ready.factor = area_factor(c, ends, c.bonds.alpha_rule, c.test.rough_platens, threads, progress);
-    ready.assembly = test == "shear" ? bonded(specimen, body, Support::halves) : std::move(ends);
+    look_at(ends);
+    check_lateral_surface(ends, acts_sideways(c, test), specimen.source, ready.warnings);
+    find_factor(ends, c.bonds.alpha_rule, c.test.rough_platens);
+    ready.assembly = std::move(ends);
+    if (test.support == Support::halves) {
+      ready.assembly = bonded(specimen, body, Support::halves);
+      leave_out_loose(ready.assembly, contacts, threads);
+    }
+    say_warnings(ready.warnings, progress);
     return ready;
   }
   // a disc is probed along its axis, between its flat faces; a two-dimensional one has none
   Body standing = body;
   standing.on_edge = true;
+  AlphaRule alpha = c.bonds.alpha_rule;
   if (c.specimen.space == Space::two_d) {
     ready.assembly = bonded(specimen, standing, Support::strips);
-    say(progress, describe(ready.assembly));
-    AlphaRule alpha = c.bonds.alpha_rule;
+    look_at(ready.assembly);
     if (alpha == AlphaRule::automatic) {
       say(progress, "alpha: a disc in two dimensions has no flat ends to probe; the affine value is used");
       alpha = AlphaRule::affine;
     }
-    ready.factor = area_factor(c, ready.assembly, alpha, false, threads, progress);
-    return ready;
+    find_factor(ready.assembly, alpha, false);
+  } else {
+    ready.assembly =
+        bonded(stand_disc(specimen, c.specimen.axis, c.test.load_axis), standing, Support::strips);
+    look_at(ready.assembly);
+    Assembly lying = bonded(specimen, body, Support::ends);
+    leave_out_loose(lying, contacts, threads);
+    find_factor(lying, alpha, false);
   }
-  ready.assembly = bonded(stand_disc(specimen, c.specimen.axis, c.test.load_axis), standing, Support::strips);
-  say(progress, describe(ready.assembly));
-  const Assembly lying = bonded(specimen, body, Support::ends);
-  ready.factor = area_factor(c, lying, c.bonds.alpha_rule, false, threads, progress);
+  say_warnings(ready.warnings, progress);
   return ready;
 }
 

@@ -25,6 +25,7 @@ Json of(const CycleSummary& cycle) {
 template <class Run, class Visit>
 void for_each_field(Run& run, Visit&& visit) {
   visit("confinement_Pa", run.confinement_Pa);
+  visit("confinement_measured_Pa", run.confinement_measured_Pa);
   visit("peak_stress_Pa", run.peak_stress_Pa);
   visit("peak_deviator_Pa", run.peak_deviator_Pa);
   visit("peak_reached", run.peak_reached);
@@ -36,7 +37,11 @@ void for_each_field(Run& run, Visit&& visit) {
   visit("crack_damage_stress_Pa", run.crack_damage_stress_Pa);
   visit("tensile_strength_Pa", run.tensile_strength_Pa);
   visit("alpha", run.alpha);
+  visit("alpha_affine", run.alpha_affine);
+  visit("mantle_cover", run.mantle_cover);
   visit("particles", run.particles);
+  visit("loose_particles", run.loose_particles);
+  visit("pieces", run.pieces);
   visit("bonds", run.bonds);
   visit("coordination", run.coordination);
   visit("dropped_bonds", run.dropped_bonds);

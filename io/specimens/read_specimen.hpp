@@ -25,7 +25,19 @@ Specimen read_specimen(const std::filesystem::path& file);
 /// third one x.
 /// @throws BadInput in the plane: centres do not lie in one plane along the axis, to 1e-9 of the specimen's
 /// size
-Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {}, Space space = Space::three_d);
+/// @param of_body  per sphere, 0 where it does not belong to the body whose box is meant; empty: all do
+Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {}, Space space = Space::three_d,
+                        const std::vector<char>& of_body = {});
+
+/// The middle of the box around the spheres that belong to the body, as they lie in the file, m.
+Vec3 middle_of(const Specimen&, const std::vector<char>& of_body);
+
+/// A way in a specimen that is in place, as it runs in the file that it was read from.
+Vec3 way_in_file(const Specimen& as_read, const Vec3& way, char axis, Space space);
+
+/// Checks the radii, before anything is made of them.
+/// @throws BadInput: a sphere so small or large that no step is right for it and the others
+void check_sizes(const Specimen&);
 
 /// Stands a disc that is in place (axis along z) on its edge: its axis becomes y, the diameter to press z. A
 /// rotation, never a mirror.
@@ -36,7 +48,9 @@ Specimen stand_disc(Specimen, char axis, std::optional<char> load_axis);
 /// Checks a specimen that is in place.
 /// @throws BadInput: no sphere, two spheres with one centre, a centre outside the body by more than 2 % of
 /// the diameter
-void check_specimen(const Specimen&, const Body&, Space space = Space::three_d);
+/// @param of_body  per sphere, 0 where it hangs on nothing, for what the message advises; empty: all hang
+void check_specimen(const Specimen&, const Body&, Space space = Space::three_d,
+                    const std::vector<char>& of_body = {});
 
 /// Writes spheres as .csv such that they read back bit for bit; aside first, then renamed.
 /// @throws WriteError

@@ -1,5 +1,9 @@
 // Chooses the wide loops: by the scene's features and the processor, once at start.
+#include <array>
+#include <cstdlib>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 
 #include "kernels/loops/bond_pass.hpp"
 #include "kernels/loops/integrate.hpp"
@@ -39,7 +43,24 @@ std::string_view name_of(InstructionSet set) {
   return "?";
 }
 
+namespace {
+
+/// @throws std::invalid_argument
+InstructionSet set_named(std::string_view wanted) {
+  const std::array<std::tuple<std::string_view, InstructionSet, bool>, 3> sets{
+      {{"x86-64", InstructionSet::x86_64, true},
+       {"x86-64-v3", InstructionSet::x86_64_v3, __builtin_cpu_supports("x86-64-v3") != 0},
+       {"x86-64-v4", InstructionSet::x86_64_v4, __builtin_cpu_supports("x86-64-v4") != 0}}};
+  for (const auto& [name, set, here] : sets)
+    if (here && wanted == name) return set;
+  throw std::invalid_argument("BRECCIA_INSTRUCTION_SET: this processor has no \"" + std::string(wanted) +
+                              "\"; valid: x86-64, x86-64-v3, x86-64-v4, as far as it has them");
+}
+
+}  // namespace
+
 InstructionSet best_instruction_set() {
+  if (const char* wanted = std::getenv("BRECCIA_INSTRUCTION_SET"); wanted && *wanted) return set_named(wanted);
   if (__builtin_cpu_supports("x86-64-v4")) return InstructionSet::x86_64_v4;
   if (__builtin_cpu_supports("x86-64-v3")) return InstructionSet::x86_64_v3;
   return InstructionSet::x86_64;

@@ -7,7 +7,8 @@ import signal
 
 from programs import CONFINED, ProgramTest, command, finish, main, run, tree
 
-GATHER = ("--set", 'run.scatter="gather"', "--set", "output.frames=4")
+# platens so fast that a test takes some thousand steps: it is run some thirty times
+GATHER = ("--set", 'run.scatter="gather"', "--set", "output.frames=4", "--set", "test.platen_speed=0.5")
 ALWAYS, NEVER = "1 us", "1e9 s"  # between checkpoints: one at every row, none but when asked
 
 BEGINS = "no checkpoint, begins at the start"

@@ -114,3 +114,46 @@ TEST_CASE(
   CHECK(one.young_modulus == two.young_modulus);
   CHECK(one.poisson_ratio == two.poisson_ratio);
 }
+
+TEST_CASE("area factor: what the bonds of an intact packing explain is what the probe finds, 8 %") {
+  for (const std::size_t spheres : {200, 1000}) {
+    const Assembly a = assemble(scene::small_packing(spheres), scene::small_cylinder(), {}, Features{}, 1);
+    const AreaFactor f = find_area_factor(a, request(AlphaRule::automatic), 1);
+    CHECK(f.alpha == doctest::Approx(f.affine).epsilon(0.08));
+  }
+  Specimen notched = scene::small_packing(1000);
+  std::erase_if(notched.spheres,
+                [](const auto& s) { return std::abs(s.centre.z) < 0.003 && s.centre.x > 0.0; });
+  const Assembly a = assemble(notched, scene::small_cylinder(), {}, Features{}, 1);
+  const AreaFactor f = find_area_factor(a, request(AlphaRule::automatic), 1);
+  CHECK(f.alpha > 1.5 * f.affine);
+}
+
+TEST_CASE("area factor: the probe sees pairs that touch without a bond") {
+  Specimen s = scene::small_packing(400);
+  std::size_t k = 0;
+  for (SpecimenSphere& sphere : s.spheres) sphere.group = k++ % 4 == 0 ? 0 : 1;
+  Assembly a = assemble(s, scene::small_cylinder(), {}, Features{}, 1);
+  AreaFactorRequest r = request(AlphaRule::automatic);
+  r.material.friction_dynamic = 0.25;
+  const double bonds_alone = find_area_factor(a, r, 1).alpha;
+  r.contacts = true;
+  CHECK(find_area_factor(a, r, 1).alpha < 0.8 * bonds_alone);
+  const Touching t = touching_of(a, r.material, 0.4, 1);
+  REQUIRE(t.contacts.size > 100);
+  for (std::size_t c = 0; c < t.contacts.size; ++c) {
+    const Row i = t.contacts.row_lo[c], j = t.contacts.row_hi[c];
+    CHECK(norm(a.particles.position[j] - a.particles.position[i]) <=
+          a.particles.radius[i] + a.particles.radius[j]);
+    for (std::size_t b = 0; b < a.bonds.size; ++b)
+      CHECK(!(std::minmax(a.bonds.row_lo[b], a.bonds.row_hi[b]) == std::minmax(i, j)));
+  }
+}
+
+TEST_CASE("area factor: where all that touches is bonded the probe is the same, bit for bit") {
+  AreaFactorRequest r = request(AlphaRule::automatic);
+  const double without = find_area_factor(packing(), r, 1).alpha;
+  r.contacts = true;
+  CHECK(touching_of(packing(), r.material, 0.4, 1).contacts.size == 0);
+  CHECK(find_area_factor(packing(), r, 1).alpha == without);
+}

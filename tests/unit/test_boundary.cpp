@@ -154,3 +154,46 @@ TEST_CASE(
     CHECK(t[0] == Vec3{});
   }
 }
+
+TEST_CASE("boundary: the pressure that acts is the inward force over the nominal surface, correction and all") {
+  for (const bool lopsided : {false, true}) {
+    Assembly a = packed(400);
+    if (lopsided) {  // three neighbours are found: what does not balance is taken out again
+      std::erase_if(a.skin, [&](Row row) { return a.particles.position[row].x < 0.020; });
+      a.skin.resize(3);
+    }
+    Confinement c = make_confinement(a, SkinWeights::radius, false);
+    c.pressure = 9e6;
+    apply_confinement(c, a.particles, serial_partition(a.particles.size));
+    double inward = 0;
+    for (std::size_t k = 0; k < c.rows.size(); ++k) {
+      const Vec3& x = a.particles.position[c.rows[k]];
+      inward -= (c.force[k].x * x.x + c.force[k].y * x.y) / std::hypot(x.x, x.y);
+    }
+    CHECK(c.acting == doctest::Approx(inward / (std::numbers::pi * 0.05 * 0.10)).epsilon(1e-10));
+    CHECK((std::abs(c.acting / 9e6 - 1) < 0.02) == !lopsided);
+  }
+}
+
+TEST_CASE("boundary: a sphere on the axis gets no lateral force, and no other a number that is none") {
+  Assembly a = packed(400);
+  Confinement c = make_confinement(a, SkinWeights::radius, false);
+  c.pressure = 9e6;
+  a.particles.position[c.rows[7]] = {0, 0, 0.01};
+  apply_confinement(c, a.particles, serial_partition(a.particles.size));
+  for (const Vec3& f : c.force) REQUIRE(std::isfinite(norm(f)));
+  CHECK(norm(c.force[7]) < 0.05 * norm(c.force[8]));  // but for the correction, which all share
+  CHECK(!is_one_sphere_wide(a));
+  c.rigid = true;
+  restrain_laterally(c, a.particles, serial_partition(a.particles.size));
+  CHECK(std::isfinite(c.acting));
+}
+
+TEST_CASE("boundary: the cover of the lateral surface, in packings 0.65 to 0.9") {
+  const Assembly a = packed(400);
+  double sum = 0;
+  for (const Row row : a.skin) sum += std::numbers::pi * std::pow(a.particles.radius[row], 2);
+  CHECK(lateral_cover(a) == doctest::Approx(sum / (std::numbers::pi * 0.05 * 0.10)).epsilon(1e-12));
+  CHECK(lateral_cover(a) > 0.65);
+  CHECK(lateral_cover(a) < 0.9);
+}

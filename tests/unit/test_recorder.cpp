@@ -7,7 +7,7 @@ using namespace breccia;
 
 namespace {
 
-Reading reading(int step) {
+StepReading reading(int step) {
   return {1e-3 * step, 1e-5 * step,  2e-5 * step, 1e6 * step,
           3e4 * step,  -1e-6 * step, 4e-6 * step, 7.0 * step};
 }

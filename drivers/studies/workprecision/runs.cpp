@@ -11,7 +11,7 @@
 #include "core/bonding/law_of_material.hpp"
 #include "core/loading/strength.hpp"
 #include "core/world/make_world.hpp"
-#include "drivers/programs/laboratory.hpp"
+#include "drivers/programs/scene_of_case.hpp"
 #include "io/text/toml_node.hpp"
 #include "kernels/loops/bond_pass.hpp"
 
@@ -81,8 +81,9 @@ StudyScene make_study_scene(const Case& c, const std::string& test, const std::v
   for (const Trial& trial : trials) {
     if (trial.spheres > 0 || scene.ready.contains(trial.recipe.precision)) continue;
     Progress silent = make_progress(true);
-    scene.ready[trial.recipe.precision] = make_ready(with_recipe(scene.c, trial.recipe), test, scene.asked,
-                                                     threads, scene.ready.empty() ? progress : silent);
+    scene.ready[trial.recipe.precision] =
+        make_ready(with_recipe(scene.c, trial.recipe), *find_laboratory_test(test), scene.asked, threads,
+                   scene.ready.empty() ? progress : silent);
   }
   return scene;
 }
@@ -121,7 +122,7 @@ ReadySpecimen pack_for_trial(const StudyScene& scene, const Trial& trial) {
   s.centre.reset();
   s.axis = 'z';
   Progress silent = make_progress(true);
-  return make_ready(c, scene.test, scene.asked, trial.threads, silent);
+  return make_ready(c, *find_laboratory_test(scene.test), scene.asked, trial.threads, silent);
 }
 
 std::optional<Outcome> run_trial(
@@ -132,7 +133,8 @@ std::optional<Outcome> run_trial(
   Outcome outcome;
   try {
     const Assembly assembly = shaken(ready.assembly, trial.shake, trial.shake_size);
-    const WorldOptions options = world_options(c, scene.test, scene.asked, trial.threads);
+    const WorldOptions options =
+        world_options(c, *find_laboratory_test(scene.test), scene.asked, trial.threads);
     World w = make_world(assembly, c.materials.front(), ready.factor, options);
     LoadHooks hooks;
     hooks.interrupted = stop;
@@ -141,7 +143,7 @@ std::optional<Outcome> run_trial(
         progress(w, stage, fraction, row);
       };
     LoadResult result;
-    run_load_test(w, assembly, load_test(c, scene.test, 0), hooks, result);
+    run_load_test(w, assembly, load_test(c, *find_laboratory_test(scene.test), 0), hooks, result);
     if (result.stopped == Stopped::interrupted) return std::nullopt;
     outcome = outcome_of(w, result);
   } catch (const SimulationBroke& broke) {

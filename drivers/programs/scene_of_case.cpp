@@ -1,0 +1,39 @@
+#include "drivers/programs/scene_of_case.hpp"
+
+namespace breccia {
+
+LoadTest load_test(const Case& c, const LaboratoryTest& test, std::size_t run) {
+  LoadTest load;
+  load.loading = test.loading;
+  load.confinement = c.test.confinement[run];
+  load.platen_speed = c.test.platen_speed;
+  load.stop_strain = c.test.stop_strain;
+  load.stop_after_peak = c.test.stop_after_peak;
+  load.frames = c.frames;
+  load.unload_at = c.test.unload_at;
+  load.unload_to = c.test.unload_to;
+  return load;
+}
+
+WorldOptions world_options(const Case& c, const LaboratoryTest& test, const Features& asked, int threads) {
+  WorldOptions o;
+  o.features = asked;
+  o.new_contacts = c.features.new_contacts;
+  o.rough_platens = test.always_rough || c.test.rough_platens;
+  o.rigid_skin = test.rigid_sides;
+  o.skin_weights = c.test.skin_weights;
+  o.cracks = c.cracks;
+  o.contact_damping = c.damping.contact;
+  o.paper_form = c.damping.paper_form;
+  o.damping_scheme = c.damping.scheme;
+  o.global_damping = {c.damping.translation, c.damping.rotation};
+  o.safety = c.safety;
+  if (c.mass_scaling) o.mass_factor = c.mass_factor;
+  o.scatter = c.scatter;
+  o.precision = c.precision;
+  o.ledger = c.features.energy_ledger;
+  o.threads = threads;
+  return o;
+}
+
+}  // namespace breccia
