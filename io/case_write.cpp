@@ -1,7 +1,12 @@
 #include "io/case_write.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
+#include "io/accuracy.hpp"
+#include "io/case_material.hpp"
 #include "io/nearest.hpp"
+#include "kernels/bond_laws.hpp"
 
 namespace breccia {
 namespace {
@@ -13,20 +18,56 @@ void write_line(std::string& text, const Key& key, const Reading& reading) {
   text += fmt::format("{} = {}\n", word_of(key), write_value(key, reading));
 }
 
-/// Only what a confinement changes, so that a reader sees it.
-void write_at(std::string& text, const ConfinementLayer& at, const Layer& base) {
-  std::string lines;
-  for (const Key& key : all_keys()) {
-    const auto here = at.layer.find(key.name), there = base.find(key.name);
-    if (here == at.layer.end()) continue;
-    if (there != base.end() &&
-        write_value(key, here->second.reading) == write_value(key, there->second.reading))
-      continue;
-    write_line(lines, key, here->second.reading);
+/// Whether a confinement changes what stands behind a key.
+bool differs(const Key& key, const Layer& at, const Layer& base) {
+  const auto here = at.find(key.name), there = base.find(key.name);
+  return here != at.end() && (there == base.end() || write_value(key, here->second.reading) !=
+                                                         write_value(key, there->second.reading));
+}
+
+/// Only what confinements change, so that a reader sees it; what one of them changes stands at each, since values
+/// between two confinements lie between theirs. Zero may be left out: it has the values of the base.
+void write_at(std::string& text, const std::vector<ConfinementLayer>& groups, const Layer& base) {
+  std::vector<const Key*> changed;
+  for (const Key& key : all_keys())
+    if (std::any_of(groups.begin(), groups.end(),
+                    [&](const ConfinementLayer& at) { return differs(key, at.layer, base); }))
+      changed.push_back(&key);
+  if (changed.empty()) return;
+  for (const ConfinementLayer& at : groups) {
+    std::string lines;
+    bool differ = at.confinement != 0;
+    for (const Key* key : changed) {
+      differ = differ || differs(*key, at.layer, base);
+      if (const auto here = at.layer.find(key->name); here != at.layer.end())
+        write_line(lines, *key, here->second.reading);
+    }
+    if (!differ) continue;
+    const std::string confinement = format_quantity(at.confinement, dimension::stress);
+    text += fmt::format("\n[[material.at]]{}{}\nconfinement = {}\n{}", at.place.empty() ? "" : "  # ", at.place,
+                        toml_string(confinement), lines);
   }
-  if (lines.empty()) return;
-  const std::string confinement = format_quantity(at.confinement, dimension::stress);
-  text += fmt::format("\n[[material.at]]\nconfinement = {}\n{}", toml_string(confinement), lines);
+}
+
+std::string_view word_of_name(std::string_view name) { return name.substr(name.rfind('.') + 1); }
+
+/// The default of a test, and who has another: a law, a recipe, a scene in two dimensions.
+std::string describe_standard(const Key& key, const std::string& test) {
+  const std::string_view standard = standard_of(key, test), plane = standard_of(key, test, Space::plane);
+  std::string text(standard.empty() ? "-" : standard);
+  const auto other = [&](std::string_view value, std::string_view whose) {
+    if (!value.empty() && value != standard) text += fmt::format("; {}: {}", whose, value);
+  };
+  other(plane, "2-D");
+  if (test == "pack") return text;
+  for_each_law([&]<class Law>(const Law&) {
+    for (const LawStandard& of_law : Law::standards)
+      if (of_law.key == key.name) other(of_law.value, Law::name);
+  });
+  for (const std::string& recipe : split_words(find_key("time.accuracy")->words))
+    for (const RecipeStandard& of_recipe : accuracy_recipe(recipe))
+      if (of_recipe.key == key.name) other(of_recipe.value, recipe);
+  return text;
 }
 
 }  // namespace
@@ -44,7 +85,10 @@ std::string describe_values(const Key& key) {
     default:
       break;
   }
-  const std::string range = describe(key.range, key.dimension);
+  std::string range = describe(key.range, key.dimension);
+  if (!key.where.key.empty())
+    range += fmt::format(" ({} {}: {})", word_of_name(key.where.key), key.where.value,
+                         describe(key.where.range, key.dimension));
   const std::string what = key.kind == Kind::whole_number ? "a whole number" : describe(key.dimension);
   const std::string list = key.kind != Kind::quantities ? ""
                            : key.count                  ? fmt::format("{} x ", key.count)
@@ -57,8 +101,7 @@ std::string write_case(const Layer& keys, const Layer& base, const std::vector<C
   std::string text = fmt::format("# breccia-{}: the case with every default written out\n", test);
   std::string_view table;
   const auto end_material = [&] {
-    if (table == "material")
-      for (const ConfinementLayer& group : at) write_at(text, group, base);
+    if (table == "material") write_at(text, at, base);
   };
   for (const Key& key : all_keys()) {
     const Layer& layer = table_of(key) == "material" ? base : keys;
@@ -82,12 +125,13 @@ std::string describe_keys(const std::string& test) {
   for (const Key& key : all_keys()) {
     if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) continue;
     if (table_of(key) != table) table = table_of(key), text += fmt::format("\n[{}]\n", table);
-    const std::string_view standard = standard_of(key, test);
     text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), describe_values(key),
-                        standard.empty() ? "-" : standard, key.meaning);
+                        describe_standard(key, test), key.meaning);
     if (key.name == "material.preset" && accepts(*find_key("test.confinement"), test))
       text += fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
-                          "a table [[material.at]]: keys of the material for one confinement");
+                          "a table [[material.at]]: keys of the material for one confinement; between two of "
+                          "them, and zero, values lie on straight lines; beyond the last one that one's hold, "
+                          "with a warning");
   }
   return text;
 }

@@ -15,9 +15,14 @@ namespace breccia {
 Specimen make_specimen(const Case& c, Progress& progress) {
   const SpecimenCase& s = c.specimen;
   if (s.pack) {
-    say(progress,
-        fmt::format("packing {} {}", s.pack->spheres, s.space == Space::plane ? "discs" : "spheres"));
-    return pack_spheres(s.body, *s.pack);
+    try {
+      say(progress, fmt::format("packing {} {}", spheres_of(s.body, *s.pack),
+                                s.space == Space::plane ? "discs" : "spheres"));
+      return pack_spheres(s.body, *s.pack);
+    } catch (const BadPacking& bad) {
+      const std::string key = "specimen.pack." + bad.key;
+      fail<BadInput>("{}: {}: {}", place_of(c, key), key, bad.what());
+    }
   }
   Specimen specimen = place_specimen(read_specimen(*s.file), s.axis, s.centre, s.space);
   check_specimen(specimen, s.body, s.space);

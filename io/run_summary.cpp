@@ -9,7 +9,6 @@
 #include "core/strength.hpp"
 
 namespace breccia {
-namespace {
 
 std::string name_of(Stopped stopped) {
   switch (stopped) {
@@ -21,9 +20,13 @@ std::string name_of(Stopped stopped) {
       return "pressure";
     case Stopped::interrupted:
       return "interrupted";
+    case Stopped::no_rest:
+      return "no rest";
   }
   return "?";
 }
+
+namespace {
 
 void warn_if_dynamic(const CurveFindings& f, RunSummary& run) {
   if (f.kinetic_ratio > 1e-3)
@@ -51,11 +54,11 @@ void read_moduli_before(double unloaded, std::span<const CurveRow> rows, std::sp
 
 /// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the lid's
 /// pressure.
-CurveFindings findings(const std::string& test, const LoadResult& result) {
+CurveFindings findings(const std::string& test, const LoadTest& load, const LoadResult& result) {
   std::vector<CurveRow> rows = result.record.rows;
   if (test == "shear")
     for (CurveRow& row : rows) row.confining_stress_Pa = 0;
-  CurveFindings f = read_curve(rows, result.record.mismatch);
+  CurveFindings f = read_curve(rows, result.record.mismatch, load.confinement);
   if (!result.cycles.empty())
     read_moduli_before(result.cycles.front().unloaded, rows, result.record.mismatch, f);
   if (test == "shear") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};
@@ -79,6 +82,50 @@ void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunS
   run.first_cracks = 2 * central >= first ? "central" : "at the strips";
 }
 
+/// A servo that lags holds another stress than was asked for: of a shear box that dilates quickly, the normal
+/// stress; of a hydrostatic test, the axial one.
+void warn_if_not_held(const std::string& test, const LoadTest& load, const LoadResult& result,
+                      const CurveFindings& f, RunSummary& run) {
+  const auto& rows = result.record.rows;
+  if (rows.empty()) return;
+  constexpr double allowed = 0.05;
+  const double mega = 1e-6, asked = load.confinement;
+  if (load.loading == Loading::hydrostatic) {
+    double most = 0;
+    for (const CurveRow& row : rows)
+      if (row.confining_stress_Pa > 0.25 * asked)
+        most = std::max(most, std::abs(row.axial_stress_Pa / row.confining_stress_Pa - 1.0));
+    if (most > allowed)
+      run.warnings.push_back(fmt::format(
+          "the axial stress differs by {:.0f} % from the pressure on the mantle; lower test.platen_speed",
+          100 * most));
+    return;
+  }
+  if (asked == 0 || test == "usc") return;
+  const double held = rows[f.peak_row].confining_stress_Pa;
+  run.confining_stress_at_peak_Pa = held;
+  double most = 0;  // on the way up
+  for (std::size_t k = 0; k <= f.peak_row; ++k)
+    most = std::max(most, std::abs(rows[k].confining_stress_Pa - asked));
+  if (most > allowed * asked)
+    run.warnings.push_back(
+        fmt::format("{} was {:.4g} MPa at the peak, and up to {:.0f} % off before it, where {:.4g} MPa was "
+                    "asked for; lower test.platen_speed",
+                    load.loading == Loading::shear ? "the normal stress" : "the confinement", mega * held,
+                    100 * most / asked, mega * asked));
+}
+
+/// An unloading that a case asks for, and that its run ended before.
+void warn_if_not_unloaded(const LoadTest& load, const LoadResult& result, RunSummary& run) {
+  for (std::size_t k = result.cycles.size(); k < load.unload_at.size(); ++k)
+    run.warnings.push_back(
+        fmt::format("test.unload_at {:g} was not reached: the run had ended ({})", load.unload_at[k],
+                    run.stopped_by));
+  if (!result.cycles.empty() && !(result.cycles.back().reloaded > result.cycles.back().unloaded))
+    run.warnings.push_back(fmt::format("test.unload_at {:g}: the run ended ({}) before it was loaded again",
+                                       load.unload_at[result.cycles.size() - 1], run.stopped_by));
+}
+
 /// Under even pressure there is no peak; the answer is a bulk modulus.
 void forget_the_peak(const LoadResult& result, RunSummary& run) {
   run.peak_reached = false;
@@ -94,7 +141,7 @@ void forget_the_peak(const LoadResult& result, RunSummary& run) {
 
 RunSummary summarise(const std::string& test, const World& w, const Assembly& a, const LoadTest& load,
                      const LoadResult& result) {
-  const CurveFindings f = findings(test, result);
+  const CurveFindings f = findings(test, load, result);
   RunSummary run;
   run.confinement_Pa = load.confinement;
   if (!result.record.rows.empty()) {
@@ -136,6 +183,8 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
   run.state_hash = state_hash(w.particles, w.bonds);
   run.stopped_by = name_of(result.stopped);
   run.warnings = result.warnings;
+  warn_if_not_held(test, load, result, f, run);
+  warn_if_not_unloaded(load, result, run);
   if (test == "bts") read_disc(w, a, result, run);
   if (test == "tension") run.tensile_strength_Pa = run.peak_stress_Pa;
   if (test == "shear") run.peak_deviator_Pa.reset();
@@ -149,6 +198,7 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
     forget_the_peak(result, run);
     return run;
   }
+  if (!f.doubt.empty()) run.warnings.push_back("no strength: " + f.doubt);
   warn_if_dynamic(f, run);
   if (run.peak_reached) {
     const ErrorEstimate e =
@@ -161,14 +211,25 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
 }
 
 void fit_peaks(SeriesSummary& series) {
+  series.mohr_coulomb.reset();
+  series.no_mohr_coulomb.clear();
+  const bool shear = series.test == "shear";
+  if (series.runs.size() < 2 || !(shear || series.test == "triaxial" || series.test == "biaxial")) return;
   std::vector<double> confinement, peak;
   for (const RunSummary& run : series.runs) {
     if (!run.peak_reached) continue;  // the largest stress so far is not a strength
-    confinement.push_back(run.confinement_Pa);
+    confinement.push_back(run.confining_stress_at_peak_Pa.value_or(run.confinement_Pa));
     peak.push_back(*run.peak_stress_Pa);
   }
-  series.mohr_coulomb =
-      series.test == "shear" ? fit_shear_line(confinement, peak) : fit_mohr_coulomb(confinement, peak);
+  const auto line = shear ? fit_shear_line(confinement, peak) : fit_mohr_coulomb(confinement, peak);
+  if (line)
+    series.no_mohr_coulomb = doubt_about(*line);
+  else
+    series.no_mohr_coulomb = peak.size() < 2
+                                 ? fmt::format("{} of {} runs reached a peak, and a line needs two",
+                                               peak.size(), series.runs.size())
+                                 : "the peaks do not rise with the confinement";
+  if (line && series.no_mohr_coulomb.empty()) series.mohr_coulomb = line;
 }
 
 }  // namespace breccia
