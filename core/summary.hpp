@@ -82,7 +82,7 @@ struct SeriesSummary {
   int ranks = 1;
   std::vector<RunSummary> runs;             ///< run K is runs[K], curve-K.csv, results.h5:/run-K
   std::optional<MohrCoulomb> mohr_coulomb;  ///< only where there were enough peaks
-  std::string no_mohr_coulomb;              ///< why a series of a test that has such a line has none
+  std::string no_mohr_coulomb = {};         ///< why a series of a test that has such a line has none
 };
 
 }  // namespace breccia

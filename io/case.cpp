@@ -289,7 +289,7 @@ struct Checks {
       });
       if (!is_used)
         refuse(group.place, "material.at",
-               fmt::format("no run has confinement {}, or one that lies next to it; test.confinement has: {}",
+               fmt::format("no run has confinement {}; test.confinement has: {}",
                            format_quantity(group.confinement, dimension::stress), list));
     }
   }

@@ -115,6 +115,17 @@ void warn_if_not_held(const std::string& test, const LoadTest& load, const LoadR
                     100 * most / asked, mega * asked));
 }
 
+/// Elastic constants that no solid has are those of a specimen that yields: under its confinement, or at once.
+void warn_if_not_elastic(const CurveFindings& f, RunSummary& run) {
+  constexpr double noise = 0.05;
+  if (f.poisson_ratio && !(*f.poisson_ratio > -noise && *f.poisson_ratio < 0.5 + noise))
+    run.warnings.push_back(
+        fmt::format("poisson_ratio {:.2f} is none of a solid: the specimen was not elastic where the moduli are read",
+                    *f.poisson_ratio));
+  if (f.young_modulus && !(*f.young_modulus > 0.0))
+    run.warnings.push_back(fmt::format("young_modulus {:.3g} GPa is none of a solid", *f.young_modulus * 1e-9));
+}
+
 /// An unloading that a case asks for, and that its run ended before.
 void warn_if_not_unloaded(const LoadTest& load, const LoadResult& result, RunSummary& run) {
   for (std::size_t k = result.cycles.size(); k < load.unload_at.size(); ++k)
@@ -199,6 +210,7 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
     return run;
   }
   if (!f.doubt.empty()) run.warnings.push_back("no strength: " + f.doubt);
+  warn_if_not_elastic(f, run);
   warn_if_dynamic(f, run);
   if (run.peak_reached) {
     const ErrorEstimate e =
