@@ -23,7 +23,7 @@ struct RunSummary {
   std::optional<double> peak_deviator_Pa;  ///< total axial less confinement
   bool peak_reached = false;               ///< the stress came down again after its largest value
   std::optional<double> strain_at_peak;
-  /// as measured: where a servo holds it, it need not be what was asked for
+  /// measured, mean over the rows within 5 % of the peak: a servo need not hold what was asked for
   std::optional<double> confining_stress_at_peak_Pa;
   std::optional<double> young_modulus_Pa;     ///< initial: slope between 5 and 25 % of the peak deviator
   std::optional<double> young_modulus_50_Pa;  ///< tangent at half the peak deviator

@@ -118,6 +118,8 @@ BrokenCount count_broken(const World& world);
 
 /// J, of all ranks
 double kinetic_energy(const World& world);
+/// J, of all ranks, of the particles that an intact bond holds.
+double kinetic_energy_of_bonded(const World& world);
 /// @param back  s, by which the positions are taken back along the velocities: the world's step gives the
 /// moment
 ///              of the last forces, and of the history

@@ -324,7 +324,7 @@ void run_test_program(const CommandLine& line) {
   if (!ranks.is_root()) return;
   if (stopped != Stopped::interrupted) remove_checkpoints(line.out);
   say(progress, "\n" + format_summary_table(series, line.out));
-  if (stopped == Stopped::interrupted) say(progress, "interrupted; --resume goes on from here");
+  if (stopped == Stopped::interrupted) return say(progress, "interrupted; --resume goes on from here");
   for (const RunSummary& run : series.runs)
     if (run.stopped_by == name_of(Stopped::no_rest))
       fail<SimulationBroke>("under {:.4g} MPa the specimen did not come to rest and was not loaded; see the "
