@@ -378,8 +378,9 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   for (const Key& key : all_keys())
     if (const auto given = layer.find(key.name); given != layer.end() && key.store)
       key.store(c, given->second.reading);
-  for (const auto& [name, given] : layer)
-    if (!given.place.empty()) c.places[name] = given.place;
+  for (const Layer* of : {&base, &layer})
+    for (const auto& [name, given] : *of)
+      if (!given.place.empty()) c.places[name] = given.place;
   const Checks checks{layer, c, test, file.string(), standards};
   checks.specimen();
   checks.narrower_ranges();

@@ -11,6 +11,21 @@
 #include "kernels/bond_pass.hpp"
 
 namespace breccia {
+namespace {
+
+/// What is said of a key from far below gets "file:line" in front.
+template <class Work>
+auto with_place(const Case& c, const Work& work) {
+  try {
+    return work();
+  } catch (const BadInput& bad) {
+    const std::string text = bad.what(), key = text.substr(0, text.find(':'));
+    if (find_key(key)) fail<BadInput>("{}: {}", place_of(c, key), text);
+    throw;
+  }
+}
+
+}  // namespace
 
 Specimen make_specimen(const Case& c, Progress& progress) {
   const SpecimenCase& s = c.specimen;
@@ -52,9 +67,9 @@ Features features_that_run(const Case& c, const Features& asked) {
       fail<BadInput>(
           "{}: run.precision \"mixed\" is built for material.law \"dempack\" without the criterion "
           "\"coupled\"; leave run.precision out",
-          c.source.string());
+          place_of(c, "run.precision"));
     fail<BadInput>("{}: material.law \"{}\" has no criterion \"coupled\"; leave material.criterion out",
-                   c.source.string(), m.law);
+                   place_of(c, "material.criterion"), m.law);
   }
 }
 
@@ -117,7 +132,7 @@ ReadySpecimen make_ready(const Case& c, const std::string& test, const Features&
   ReadySpecimen ready;
   const auto bonded = [&](const Specimen& s, const Body& b, Grip grip) {
     rule.grip = grip;
-    return assemble(s, b, rule, features, threads, asked.rotation);
+    return with_place(c, [&] { return assemble(s, b, rule, features, threads, asked.rotation); });
   };
   if (test != "bts") {
     Assembly ends = bonded(specimen, body, Grip::ends);

@@ -224,7 +224,10 @@ RunSummary summarise(const std::string& test, const World& w, const Assembly& a,
     forget_the_peak(result, run);
     return run;
   }
-  if (!f.doubt.empty()) run.warnings.push_back("no strength: " + f.doubt);
+  if (!f.doubt.empty()) {
+    run.warnings.push_back("no strength: " + f.doubt);
+    run.tensile_strength_Pa = run.strip_corrected_strength_Pa = {};
+  }
   warn_if_not_elastic(f, run);
   warn_if_dynamic(f, run);
   if (run.peak_reached) {
