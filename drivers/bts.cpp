@@ -1,6 +1,7 @@
-#include "io/test_program.hpp"
+#include "drivers/programs/laboratory.hpp"
 
 int main(int argc, char** argv) {
-  return breccia::run_laboratory_test("bts", "Brazilian test: a disc pressed along a diameter between two strips.",
-                              argc, argv, breccia::run_test_program);
+  return breccia::run_laboratory_test("bts",
+                                      "Brazilian test: a disc pressed along a diameter between two strips.",
+                                      argc, argv, breccia::run_test_program);
 }

@@ -1,5 +1,5 @@
-#include "io/impact_case.hpp"
-#include "io/impact_program.hpp"
+#include "drivers/programs/impact_program.hpp"
+#include "io/cases/impact_case.hpp"
 
 int main(int argc, char** argv) {
   return breccia::run_program("impact", "Free particles against each other and walls.", argc, argv,

@@ -1,3 +1,3 @@
-#include "io/layouts_program.hpp"
+#include "drivers/studies/layouts/program.hpp"
 
 int main(int argc, char** argv) { return breccia::run_layouts_program(argc, argv); }

@@ -1,4 +1,4 @@
-#include "io/pack_program.hpp"
+#include "drivers/programs/pack_program.hpp"
 
 int main(int argc, char** argv) {
   return breccia::run_program("pack", "Dense random packings of spheres in cylinders, discs and boxes.", argc,

@@ -1,4 +1,4 @@
-#include "io/test_program.hpp"
+#include "drivers/programs/laboratory.hpp"
 
 int main(int argc, char** argv) {
   return breccia::run_laboratory_test(

@@ -1,3 +1,3 @@
-#include "io/workprecision_program.hpp"
+#include "drivers/studies/workprecision/program.hpp"
 
 int main(int argc, char** argv) { return breccia::run_workprecision_program(argc, argv); }

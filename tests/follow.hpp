@@ -4,7 +4,7 @@
 #include <experimental/simd>
 #include <vector>
 
-#include "kernels/bond_force.hpp"
+#include "kernels/laws/bond_force.hpp"
 #include "tests/reference/reference.hpp"
 
 namespace breccia::scene {

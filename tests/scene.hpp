@@ -7,10 +7,10 @@
 #include <set>
 #include <vector>
 
-#include "core/law_of_material.hpp"
-#include "core/packing.hpp"
-#include "core/world.hpp"
-#include "kernels/contact_pass.hpp"
+#include "core/bonding/law_of_material.hpp"
+#include "core/packing/packing.hpp"
+#include "core/world/world.hpp"
+#include "kernels/loops/contact_pass.hpp"
 #include "tests/reference/reference.hpp"
 
 namespace breccia::scene {

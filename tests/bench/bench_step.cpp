@@ -9,7 +9,7 @@
 #include <chrono>
 #include <map>
 
-#include "core/law_of_material.hpp"
+#include "core/bonding/law_of_material.hpp"
 #include "tests/scene.hpp"
 
 namespace {
@@ -62,7 +62,7 @@ World world(const benchmark::State& s, ScatterKind scatter = ScatterKind::privat
                               built_features(law_of(material, factor.shear_ratio), features), 2);
   World w = make_world(a, material, factor, options);
   put_into_state(w, static_cast<int>(s.range(2)));
-  if (precision == Precision::mixed) w.narrow_bonds = narrow_bonds(w.bonds);
+  if (precision == Precision::mixed) w.single_bonds = single_bonds(w.bonds);
   w.platens.velocity = {Vec3{0, 0, 0.02}, Vec3{0, 0, -0.02}};
   for (int k = 0; k < 20; ++k) advance(w);
   return w;

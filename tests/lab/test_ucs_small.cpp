@@ -1,8 +1,8 @@
 // Laboratory tests on a specimen of 500 spheres: what a user would get, small enough for every day.
 #include <doctest/doctest.h>
 
-#include "core/load_test.hpp"
-#include "core/strength.hpp"
+#include "core/loading/protocol.hpp"
+#include "core/loading/strength.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -23,7 +23,7 @@ const Assembly& specimen() {
 
 /// @param at_stage_2  called once, when the axial loading begins
 Run run(double confinement, double stop_strain, const std::function<void(const World&)>& at_stage_2 = {}) {
-  reference::Parameters p;  // concrete, MODEL section 10
+  reference::Parameters p;  // concrete: docs/model.md, "Materials"
   AreaFactorRequest request;
   request.material = scene::material_of(p);
   const AreaFactor factor = find_area_factor(specimen(), request, 2);
@@ -56,7 +56,7 @@ const Run& unconfined() {
 
 /// The virial theorem for a specimen at rest: sum of N d over the bonds is what the pressures on mantle and
 /// platens make of it, taken where they act (centres of spheres lie within the nominal body, at 500 spheres
-/// by a tenth of it). MODEL 10 states it as the mean bond stress p/(alpha T). How much of the mantle's
+/// by a tenth of it). The mean bond stress is p/(alpha T), T of (B13). How much of the mantle's
 /// pressure on the rough layers, whose lateral motion is fixed, goes through bonds lies between none and all
 /// of it.
 struct Virial {
@@ -107,7 +107,7 @@ TEST_CASE(
 
 TEST_CASE(
     "triaxial/small: 500 spheres at 9 MPa: stage 1 settles, the pressure is held, the peak lies above the "
-    "UCS [MODEL 10]") {
+    "UCS [(B67)]") {
   double kinetic = 0;
   Virial balance;
   std::array<double, 2> platens{};

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/impact.hpp"
+#include "core/impact/impact.hpp"
 
 namespace scene {
 

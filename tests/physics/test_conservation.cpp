@@ -79,7 +79,7 @@ ref::Parameters elastic_chain() {
 }  // namespace
 
 TEST_CASE(
-    "conservation: momentum and angular momentum of a breaking cluster [MODEL 4, round-off: 1e-13 of sum "
+    "conservation: momentum and angular momentum of a breaking cluster [(P18), round-off: 1e-13 of sum "
     "m|v|]") {
   for (const auto criterion :
        {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb})
@@ -117,7 +117,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "conservation: a cluster turned rigidly by 1 rad feels no force, to first order in the step [MODEL 4]") {
+    "conservation: a cluster turned rigidly by 1 rad feels no force, to first order in the step [(B5)]") {
   // velocities at n - 1/2 on the normal at n make slips of d dt^2/2 (w.n) w_t a step: forces in proportion to
   // dt
   ref::Parameters p = brittle();
@@ -179,7 +179,7 @@ TEST_CASE(
     advance(w);
     worst = std::max(worst, std::abs(w.particles.position[1].z - w.particles.reference_position[1].z -
                                      A * std::cos(n * theta)));
-    // K with the product of the two velocities around the step (MODEL 9)
+    // K with the product of the two velocities around the step (B48)
     const double energy = stored + w.particles.mass[1] * before.z * w.particles.velocity[1].z;
     most = std::max(most, energy), least = std::min(least, energy);
   }
@@ -250,7 +250,7 @@ TEST_CASE(
 
 TEST_CASE(
     "conservation: global damping takes its share of every force on what moves, and nothing where v is 0 "
-    "[MODEL 7, exact]") {
+    "[(P39) (P40), exact]") {
   ref::Parameters p = elastic_chain();
   World undamped = world_of(chain(2), p);
   p.damping_translation = p.damping_rotation = 0.3;

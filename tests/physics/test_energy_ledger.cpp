@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "core/load_test.hpp"
+#include "core/loading/protocol.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -147,7 +147,7 @@ TEST_CASE(
       const double speed = 0.1 * std::sin(2.0 * std::numbers::pi * w.time / duration);
       scene::drive(w, speed, -speed);
       advance(w);
-      note_balance(w.ledger, balance(w));
+      record_balance(w.ledger, balance(w));
     }
     for (const auto& [name, channel] : loss_channels)
       CHECK(std::abs(balance(w).*channel) < 1e-12 * w.ledger.most_work);
@@ -178,7 +178,7 @@ TEST_CASE("Bodies that break up and rub balance, in every channel, with the squa
       while (run.time < 8e-3) {
         advance(run);
         e = balance(run);
-        note_balance(run.ledger, e);
+        record_balance(run.ledger, e);
       }
       CHECK(count_broken(run).tension + count_broken(run).shear > 30);
       CHECK(run.contacts.size > 0);

@@ -3,7 +3,7 @@
 // and 5.6.
 #include <doctest/doctest.h>
 
-#include "core/stress.hpp"
+#include "core/world/stress.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -28,7 +28,7 @@ Stress stress_at(double e_x, double e_z, double E, double nu) {
   const auto balls = lattice(4);
   const Features features = ContactBondLaw::feature_sets[0];
   Assembly a = scene::free_body(balls, 0.01, features);
-  a.space = Space::plane;
+  a.space = Space::two_d;
   const double cell = 2 * std::sqrt(3.0) * radius * radius;
   a.body = {Shape::box, 1, 1, double(balls.size()) * cell};  // every disc stands for one cell
   Material m;

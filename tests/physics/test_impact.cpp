@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "impact_scenes.hpp"
 
 using namespace breccia;

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "core/state_hash.hpp"
+#include "core/tables/state_hash.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -18,7 +18,7 @@ constexpr int steps = 200;
 int group_of(Gid id) { return id % 9 == 0 ? 0 : 1; }
 
 /// Crushed between platens, twisted and shaken: everything happens within 200 steps. Spins stay below 1e-4 a
-/// step, where the turn about the normal that the fast code makes (MODEL 4, to third order) is that of the
+/// step, where the turn about the normal that the fast code makes (B5) is that of the
 /// reference to 1e-13.
 struct Torn {
   ref::Parameters parameters;
@@ -215,8 +215,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "reference: gather gives the same bits with 1, 2, 3, 5 threads [DESIGN: promises, state hash equal]") {
+TEST_CASE("reference: gather gives the same bits with 1, 2, 3, 5 threads [(B94), state hash equal]") {
   for (const auto& [spheres, count] :
        {std::pair{std::size_t{100}, steps},
         {std::size_t{2600}, 60}}) {  // loops beyond bonds are cut above 2048 rows
@@ -234,7 +233,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "reference: private sums give the same bits from run to run with 2 and 3 threads [DESIGN: the loop, "
+    "reference: private sums give the same bits from run to run with 2 and 3 threads [(B92), "
     "state hash equal]") {
   for (const int threads : {2, 3}) {
     std::string want;

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "core/time_step.hpp"
+#include "core/elastic/critical_step.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -2,8 +2,8 @@
 // a specimen in a rigid sleeve.
 #include <doctest/doctest.h>
 
-#include "core/stress.hpp"
-#include "kernels/bond_energy.hpp"
+#include "core/world/stress.hpp"
+#include "kernels/loops/bond_energy.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -92,7 +92,7 @@ TEST_CASE(
     double lever = 0, force = 0;  // mean height of the reactions
     for (std::size_t k = w.particles.free; k < f.size(); ++k)
       lever += std::abs(f[k].z) * std::abs(w.particles.position[k].z), force += std::abs(f[k].z);
-    CHECK(length == doctest::Approx(2 * lever / force).epsilon(1e-3));  // MODEL 11
+    CHECK(length == doctest::Approx(2 * lever / force).epsilon(1e-3));  // (S5.19)
     if (!rough) CHECK(std::abs(got.normal.x) + std::abs(got.normal.y) < 1e-6 * size);
   }
 }
@@ -191,7 +191,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "sleeve: the skin does not move sideways - its pressure is the lateral stress of the network [MODEL 10 "
+    "sleeve: the skin does not move sideways - its pressure is the lateral stress of the network [(B73) "
     "Love 1e-6]") {
   const World w = compressed(elastic(), 500, false, true);
   const auto f = scene::forces_now(w).force;

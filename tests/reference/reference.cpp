@@ -33,7 +33,8 @@ double contact_area(const Parameters& p, const Particle& i, const Particle& j) {
 }
 
 double critical_damping(const Parameters& p, const Particle& i, const Particle& j, double k_n) {
-  const double m_ij = i.mass * j.mass / (i.mass + j.mass);
+  const double m_ij = i.mass * j.mass / (i.mass + j.mass);  // (P28)
+  // (S3.8)
   return 2 * p.xi * std::sqrt(m_ij * k_n);
 }
 
@@ -69,12 +70,13 @@ Kinematics kinematics(const Particle& i, const Particle& j, double dt) {
   const Vec3 v = j.v - i.v;
   k.d = norm(l);
   k.n = normalized(l);
-  k.n0 = normalized(l - dt * v);
+  k.n0 = normalized(l - dt * v);  // (B4)
+  // (B3)
   k.a_i = k.d * i.radius / (i.radius + j.radius);
   k.a_j = k.d - k.a_i;
   k.v_n = dot(v, k.n);
   const Vec3 v_r = v - cross(k.a_i * i.w + k.a_j * j.w, k.n);
-  k.du = dt * (v_r - dot(v_r, k.n) * k.n);
+  k.du = dt * (v_r - dot(v_r, k.n) * k.n);  // (P34)
   k.twist = 0.5 * dt * dot(i.w + j.w, k.n);
   return k;
 }
@@ -82,15 +84,16 @@ Kinematics kinematics(const Particle& i, const Particle& j, double dt) {
 // A tangential vector of one step ago follows the pair: the smallest rotation that takes n0 to n, then the
 // twist.
 Vec3 carry(const Vec3& F, const Kinematics& k) {
-  const Vec3 tilted = F - (dot(F, k.n) / (1 + dot(k.n0, k.n))) * (k.n0 + k.n);
+  const Vec3 tilted = F - (dot(F, k.n) / (1 + dot(k.n0, k.n))) * (k.n0 + k.n);  // (B5)
   return std::cos(k.twist) * tilted + std::sin(k.twist) * cross(k.n, tilted);
 }
 
 void apply(const Kinematics& k, double normal, const Vec3& shear, Particle& i, Particle& j) {
   const Vec3 on_i = normal * k.n + shear;
   i.force += on_i;
+  // (P3) (P18)
   j.force -= on_i;
-  i.torque += k.a_i * cross(k.n, shear);
+  i.torque += k.a_i * cross(k.n, shear);  // (P4)
   j.torque += k.a_j * cross(k.n, shear);
 }
 
@@ -103,7 +106,7 @@ double envelope(const Parameters& p, const Bond& b, double e) {
   const double e1 = p.LCS[0] / E;
   const double e2 = e1 + (p.LCS[1] - p.LCS[0]) * p.YRC[0] / E;
   const double e3 = e2 + (p.LCS[2] - p.LCS[1]) * p.YRC[1] / E;
-  if (e <= e1) return E * e;
+  if (e <= e1) return E * e;  // (B17) (P53)
   if (e <= e2) return p.LCS[0] + E / p.YRC[0] * (e - e1);
   if (e <= e3) return p.LCS[1] + E / p.YRC[1] * (e - e2);
   return p.LCS[2] + E / p.YRC[2] * (e - e3);
@@ -130,9 +133,9 @@ void fail(Bond& b, Broken mode) {
 // Tension on its own (P49): the normal force.
 double tension(const Parameters& p, Bond& b, double u_e) {
   const double u_l = p.sigma_t * b.area / b.k_n;
-  if (p.breakage) b.D_n = std::max(b.D_n, softening(u_e / u_l, b.delta_n));
+  if (p.breakage) b.D_n = std::max(b.D_n, softening(u_e / u_l, b.delta_n));  // (P41) (P49)
   if (b.D_n >= 1) fail(b, Broken::tension);
-  return b.k_n * u_e * g(b.D_n, b.delta_n);
+  return b.k_n * u_e * g(b.D_n, b.delta_n);  // (P46)
 }
 
 // Shear on its own. F_s is the undamaged trial k_s u, so u/u_l is |F_s|/S. Returns the force that acts.
@@ -144,7 +147,7 @@ Vec3 shear(const Parameters& p, Bond& b, double F_n) {
   const double trial = g(b.D_s, b.delta_s) * norm(b.F_s);
   if (p.breakage && norm(b.F_s) > S * (1 + b.delta_s * b.D_s)) {
     const double D = std::max(b.D_s, softening(norm(b.F_s) / S, b.delta_s));
-    if (D >= 1 || (1 - D) * S <= R) {
+    if (D >= 1 || (1 - D) * S <= R) {  // (B21)
       fail(b, Broken::shear);
       b.F_s = with_length(b.F_s, std::min(trial, R));
       return b.F_s;
@@ -162,7 +165,7 @@ void coupled_tension(const Parameters& p, Bond& bond, double u_e) {
   const double a = bond.k_n * u_e / (p.sigma_t * bond.area);
   const double b = norm(bond.F_s) / (p.tau_f * bond.area);
   const double r = a + b;
-  const double delta = (bond.delta_n * a + bond.delta_s * b) / r;
+  const double delta = (bond.delta_n * a + bond.delta_s * b) / r;  // (B24)
   const double D = p.breakage ? std::max(bond.D_n, softening(r, delta)) : bond.D_n;
   if (D >= 1) {
     fail(bond, a >= b ? Broken::tension : Broken::shear);
@@ -185,9 +188,9 @@ void intact_bond(const Parameters& p, Bond& b, double u_e) {
 // ----------------------------------------------------------------------------
 
 void broken_bond(const Parameters& p, Bond& b, double u_e) {
-  b.normal_force = std::min(b.k_n * u_e, 0.0);
+  b.normal_force = std::min(b.k_n * u_e, 0.0);  // (B22)
   const double R = p.mu2 * -b.normal_force;
-  if (norm(b.F_s) > R) b.F_s = with_length(b.F_s, R);
+  if (norm(b.F_s) > R) b.F_s = with_length(b.F_s, R);  // (P45)
   b.shear_force = b.F_s;
 }
 
@@ -197,7 +200,7 @@ void broken_bond(const Parameters& p, Bond& b, double u_e) {
 void update_contact(const Parameters& p, Contact& c, Particle& i, Particle& j, double dt) {
   const Kinematics k = kinematics(i, j, dt);
   const double u = k.d - c.free_length;
-  const double k_n = p.E * contact_area(p, i, j) / (i.radius + j.radius);
+  const double k_n = p.E * contact_area(p, i, j) / (i.radius + j.radius);  // (B30)
   const double k_s = kappa(p) * k_n;
   c.normal_force = std::min(k_n * u, 0.0);
   c.normal_total = c.normal_force;
@@ -205,14 +208,14 @@ void update_contact(const Parameters& p, Contact& c, Particle& i, Particle& j, d
     c.normal_total = std::min(c.normal_force + critical_damping(p, i, j, k_n) * k.v_n, 0.0);
   const double R = p.mu2 * -c.normal_force;
   c.F_s = carry(c.F_s, k) + k_s * k.du;
-  if (norm(c.F_s) > R) c.F_s = with_length(c.F_s, R);
+  if (norm(c.F_s) > R) c.F_s = with_length(c.F_s, R);  // (S3.17)
   apply(k, c.normal_total, c.F_s, i, j);
 }
 
 // --- Section 7: global damping
 // ------------------------------------------------------------------------------------
 
-Vec3 damped(const Vec3& F, const Vec3& v, double factor) {  // (P39, P40)
+Vec3 damped(const Vec3& F, const Vec3& v, double factor) {  // (P39) (P40)
   return norm(v) > 0 ? F - (factor * norm(F) / norm(v)) * v : F;
 }
 
@@ -229,7 +232,8 @@ Particle sphere(const Parameters& p, std::int64_t id, double radius, Vec3 x, int
   Particle s;
   s.id = id;
   s.radius = radius;
-  s.mass = p.density * 4.0 / 3.0 * pi * radius * radius * radius;
+  s.mass = p.density * 4.0 / 3.0 * pi * radius * radius * radius;  // (B1)
+  // (B2)
   s.inertia = 0.4 * s.mass * radius * radius;
   s.group = group;
   s.x = x;
@@ -243,11 +247,13 @@ Bond make_bond(const Parameters& p, const std::vector<Particle>& particles, std:
   const Particle& i = particles[b.i];
   const Particle& j = particles[b.j];
   b.d0 = norm(j.x - i.x);                                         // (P26)
-  b.strain_length = std::max(b.d0, 0.2 * (i.radius + j.radius));  // nested spheres
+  b.strain_length = std::max(b.d0, 0.2 * (i.radius + j.radius));  // nested spheres (B8)
   b.area = contact_area(p, i, j);
   b.k_n = p.E * b.area / b.strain_length;  // (P30)
+  // (P36)
   b.k_s = kappa(p) * b.k_n;
   b.c_n = critical_damping(p, i, j, b.k_n);
+  // (B18)
   b.delta_n = p.G_I ? std::max(0.0, 2 * b.k_n * *p.G_I / (p.sigma_t * p.sigma_t * b.area) - 1) : p.delta_n;
   b.delta_s = p.G_II ? std::max(0.0, 2 * b.k_s * *p.G_II / (p.tau_f * p.tau_f * b.area) - 1) : p.delta_s;
   return b;
@@ -263,7 +269,7 @@ void make_bonds(World& world) {
     if (i.group != 0 && i.group == j.group && d <= (1 + p.beta) * touch)  // (P16), upper bound only
       world.bonds.push_back(make_bond(p, world.particles, pair.first, pair.second));
     else if (d < touch)
-      world.contacts[pair].free_length = d;
+      world.contacts[pair].free_length = d;  // (B31)
   }
 }
 
@@ -271,7 +277,7 @@ void make_bonds(World& world) {
 // ---------------------------------------------------------------------------------------------
 
 void bond_law(const Parameters& p, Bond& b, double u, const Vec3& carried, const Vec3& du) {
-  b.F_s = carried + b.k_s * du;
+  b.F_s = carried + b.k_s * du;  // (B20)
   if (p.plasticity) yield(p, b, u);
   const double u_e = u - b.u_p;
   if (b.broken == Broken::no) intact_bond(p, b, u_e);
@@ -287,9 +293,10 @@ void update_bond(const Parameters& p, Bond& b, Particle& i, Particle& j, double 
   if (p.contact_damping && b.broken == Broken::no) {
     const double u_e = u - b.u_p;
     const double left = u_e > 0 ? b.normal_force / (b.k_n * u_e) : 1.0;  // g(D_n) in tension
+    // (P29)
     b.normal_total += left * b.c_n * k.v_n;
   } else if (p.contact_damping && b.normal_force < 0) {
-    b.normal_total = std::min(b.normal_force + b.c_n * k.v_n, 0.0);  // never pulls
+    b.normal_total = std::min(b.normal_force + b.c_n * k.v_n, 0.0);  // never pulls (B12)
   }
   apply(k, b.normal_total, b.shear_force, i, j);
 }
@@ -329,8 +336,10 @@ void step(World& world, double dt) {
   compute_forces(world, dt);
   for (Particle& a : world.particles) {
     const Vec3 F = without_held(a.force, a.held);  // held components neither move nor are damped
+    // (P1) (P6)
     a.v += (dt / a.mass) * damped(F, without_held(a.v, a.held), p.damping_translation);
-    a.x += dt * a.v;
+    a.x += dt * a.v;  // (P7)
+    // (P2) (P9)
     if (p.rotation) a.w += (dt / a.inertia) * damped(a.torque, a.w, p.damping_rotation);
   }
 }

@@ -1,6 +1,6 @@
-// The slow, readable solver: MODEL.md as a program. Serial, an array of structs, spheres only, one material.
-// Every fast kernel is held against it, so nothing here is shared with them but the vector type. Signs:
-// tension positive; pair quantities are j minus i; forces are on i.
+// The slow, readable solver: docs/model.md as a program. Serial, an array of structs, spheres only,
+// one material. Every fast kernel is held against it, so nothing here is shared with them but the
+// vector type. Signs: tension positive; pair quantities are j minus i; forces are on i.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/vec3.hpp"
+#include "kernels/math/vec3.hpp"
 
 namespace breccia::reference {
 

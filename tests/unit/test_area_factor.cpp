@@ -1,7 +1,7 @@
 // alpha by its four rules, and the probe that corrects it.
 #include <doctest/doctest.h>
 
-#include "core/elastic_network.hpp"
+#include "core/elastic/elastic_network.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -41,7 +41,7 @@ ElasticResponse measure(const AreaFactor& f) {
 }  // namespace
 
 TEST_CASE(
-    "area factor: affine value alpha T (2 + 3 kappa)/(4 + kappa) = 1, T summed here [MODEL 2, rel 1e-12]") {
+    "area factor: affine value alpha T (2 + 3 kappa)/(4 + kappa) = 1, T summed here [(B14), rel 1e-12]") {
   const Assembly& a = packing();
   double sum = 0;
   for (std::size_t k = 0; k < a.bonds.size; ++k) {
@@ -53,7 +53,7 @@ TEST_CASE(
   const AreaFactor f = find_area_factor(a, request(AlphaRule::affine), 1);
   CHECK(f.fabric == doctest::Approx(T).epsilon(1e-12));
   CHECK(f.alpha * T * (2 + 3 * kappa) / (4 + kappa) == doctest::Approx(1).epsilon(1e-12));
-  CHECK(f.alpha * T == doctest::Approx(1.36).epsilon(2e-3));  // MODEL: affine, nu = 0.2
+  CHECK(f.alpha * T == doctest::Approx(1.36).epsilon(2e-3));  // (B14), nu = 0.2
   CHECK(f.shear_ratio == doctest::Approx(kappa).epsilon(1e-14));
   CHECK(f.probes == 0);
   // close; no bound here, where walls thin out the bonds of T and the platens are rough
@@ -80,7 +80,7 @@ TEST_CASE(
   CHECK(r.poisson_ratio == doctest::Approx(paper.poisson_ratio).epsilon(1e-3));
 }
 
-TEST_CASE("area factor: porosity gives 40 P/N_c, a number is taken as it is [MODEL 2 (P22), rel 1e-12]") {
+TEST_CASE("area factor: porosity gives 40 P/N_c, a number is taken as it is [(P22), rel 1e-12]") {
   const Assembly& a = packing();
   double solid = 0;
   for (const double r : a.particles.radius) solid += 4.0 / 3.0 * std::numbers::pi * r * r * r;
@@ -89,7 +89,7 @@ TEST_CASE("area factor: porosity gives 40 P/N_c, a number is taken as it is [MOD
   CHECK(P == doctest::Approx(0.26).epsilon(1e-6));
   const AreaFactor f = find_area_factor(a, request(AlphaRule::porosity), 1);
   CHECK(f.alpha == doctest::Approx(40 * P / N_c).epsilon(1e-12));
-  CHECK(f.alpha == doctest::Approx(0.97).epsilon(0.1));  // MODEL: on the concrete mesh
+  CHECK(f.alpha == doctest::Approx(0.97).epsilon(0.1));  // on the concrete mesh
   CHECK(find_area_factor(a, request(AlphaRule::number), 1).alpha == 0.79);
 }
 

@@ -2,8 +2,8 @@
 // the bodies that the loading holds, a disc that is stood up.
 #include <doctest/doctest.h>
 
-#include "core/bond_area.hpp"
-#include "io/read_specimen.hpp"
+#include "core/bonding/bond_area.hpp"
+#include "io/specimens/read_specimen.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -23,7 +23,7 @@ TEST_CASE(
   rule.range = 0.3;  // far enough for pairs that others shield
   const Assembly wide = assemble(specimen, scene::small_cylinder(), rule, Features{}, 1);
   const std::vector<double> face =
-      bond_areas(AreaRule::voronoi, wide.particles, wide.bonds, wide.skin, wide.body, Space::solid, 1);
+      bond_areas(AreaRule::voronoi, wide.particles, wide.bonds, wide.skin, wide.body, Space::three_d, 1);
   rule.strength_area = AreaRule::voronoi;
   const Assembly both = assemble(specimen, scene::small_cylinder(), rule, Features{}, 1);
   std::size_t faceless = 0, wrong = 0, row = 0;
@@ -130,7 +130,7 @@ TEST_CASE(
   const Specimen up = stand_disc(pack_spheres(disc, r), 'z', std::nullopt);
   disc.on_edge = true;
   BondingRule rule;
-  rule.grip = Grip::strips;
+  rule.grip = Support::strips;
   const Assembly a = assemble(up, disc, rule, Features{}, 1);
   double mean = 0;
   for (const auto& s : up.spheres) mean += s.radius / 600;
@@ -156,7 +156,7 @@ TEST_CASE(
 
 TEST_CASE("grip: halves hold the ends and the mantle on either side of a band of five mean radii [equal]") {
   BondingRule rule;
-  rule.grip = Grip::halves;
+  rule.grip = Support::halves;
   const Assembly a = assemble(scene::small_packing(800), scene::small_cylinder(), rule, Features{}, 1);
   double mean = 0;
   for (const double r : a.particles.radius) mean += r / 800;

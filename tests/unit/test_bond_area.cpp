@@ -8,14 +8,14 @@
 #include <numbers>
 #include <string>
 
-#include "core/body_walls.hpp"
-#include "core/bond_area.hpp"
-#include "core/error.hpp"
-#include "core/mantle_area.hpp"
-#include "core/random.hpp"
-#include "core/section_area.hpp"
-#include "core/voronoi_cells.hpp"
-#include "io/read_specimen.hpp"
+#include "core/base/error.hpp"
+#include "core/base/random.hpp"
+#include "core/bonding/bond_area.hpp"
+#include "core/bonding/mantle_area.hpp"
+#include "core/bonding/section_area.hpp"
+#include "core/geometry/body_walls.hpp"
+#include "core/geometry/voronoi_cells.hpp"
+#include "io/specimens/read_specimen.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -27,11 +27,11 @@ constexpr double pi = std::numbers::pi;
 constexpr AreaRule all_rules[] = {AreaRule::minimum, AreaRule::harmonic, AreaRule::polyhedron,
                                   AreaRule::voronoi};
 
-std::vector<double> areas(AreaRule rule, const Assembly& a, Space space = Space::solid, int threads = 1) {
+std::vector<double> areas(AreaRule rule, const Assembly& a, Space space = Space::three_d, int threads = 1) {
   return bond_areas(rule, a.particles, a.bonds, a.skin, a.body, space, threads);
 }
 
-VoronoiCells cells(const Assembly& a, Space space = Space::solid, int threads = 1) {
+VoronoiCells cells(const Assembly& a, Space space = Space::three_d, int threads = 1) {
   return voronoi_cells(a.particles.reference_position, a.particles.radius, a.body, space, threads);
 }
 
@@ -54,7 +54,7 @@ Assembly bonded(const std::vector<scene::Ball>& balls, const Body& body, double 
   Assembly a = scene::free_body(balls, beta, Features{});
   a.body = body;
   for (std::size_t k = 0; k < balls.size(); ++k)
-    if (at_mantle(body, Space::solid, balls[k].x, balls[k].radius, a.mean_radius)) a.skin.push_back(Row(k));
+    if (at_mantle(body, Space::three_d, balls[k].x, balls[k].radius, a.mean_radius)) a.skin.push_back(Row(k));
   return a;
 }
 
@@ -142,7 +142,7 @@ struct Shares {
 };
 
 /// Mean area through 41 levels of the middle 80 % over the section, by each rule.
-Shares shares(const Assembly& a, double section, Space space = Space::solid) {
+Shares shares(const Assembly& a, double section, Space space = Space::three_d) {
   Shares s{};
   double* const to[] = {&s.minimum, &s.harmonic, &s.polyhedron, &s.voronoi};
   for (int k = 0; k < 4; ++k) {
@@ -160,7 +160,7 @@ Shares shares(const Assembly& a, double section, Space space = Space::solid) {
 
 }  // namespace
 
-TEST_CASE("bond area: two spheres by the four rules [MODEL 2 rel 1e-14]") {
+TEST_CASE("bond area: two spheres by the four rules [(P21) (S4.32) rel 1e-14]") {
   Assembly a =
       bonded({{1, 0.002, {0, 0, -0.002}}, {2, 0.003, {0, 0, 0.003}}}, {Shape::box, 0.01, 0.02, 0.012});
   a.skin.clear();
@@ -172,20 +172,20 @@ TEST_CASE("bond area: two spheres by the four rules [MODEL 2 rel 1e-14]") {
   CHECK(areas(AreaRule::polyhedron, a)[0] == Approx(tetrahedron * 4 * pi * (4e-6 + 9e-6) / 2).epsilon(1e-14));
   CHECK(areas(AreaRule::voronoi, a)[0] == Approx(0.01 * 0.02).epsilon(1e-12));
 
-  CHECK(areas(AreaRule::minimum, a, Space::plane)[0] == Approx(0.004).epsilon(1e-14));
-  CHECK(areas(AreaRule::harmonic, a, Space::plane)[0] == Approx(0.0048).epsilon(1e-14));
+  CHECK(areas(AreaRule::minimum, a, Space::two_d)[0] == Approx(0.004).epsilon(1e-14));
+  CHECK(areas(AreaRule::harmonic, a, Space::two_d)[0] == Approx(0.0048).epsilon(1e-14));
   const double triangle = 3 * std::sqrt(3.0) / pi;
-  CHECK(areas(AreaRule::polyhedron, a, Space::plane)[0] == Approx(triangle * 2 * pi * 2.5e-3).epsilon(1e-14));
-  CHECK(areas(AreaRule::voronoi, a, Space::plane)[0] == Approx(0.01).epsilon(1e-12));
+  CHECK(areas(AreaRule::polyhedron, a, Space::two_d)[0] == Approx(triangle * 2 * pi * 2.5e-3).epsilon(1e-14));
+  CHECK(areas(AreaRule::voronoi, a, Space::two_d)[0] == Approx(0.01).epsilon(1e-12));
 
   // the radical plane lies (d^2 + r_1^2 - r_2^2)/(2 d) from the first centre
   const double first = -0.002 + (25 + 4 - 9) / 10.0 * 1e-3;
   CHECK(cells(a).volume[0] == Approx(0.01 * 0.02 * (first + 0.006)).epsilon(1e-12));
-  CHECK(cells(a, Space::plane).volume[0] == Approx(0.01 * (first + 0.006)).epsilon(1e-12));
+  CHECK(cells(a, Space::two_d).volume[0] == Approx(0.01 * (first + 0.006)).epsilon(1e-12));
 }
 
 TEST_CASE(
-    "bond area: a skin sphere gets what 11 neighbours would give and the inner end wins [MODEL 2 rel "
+    "bond area: a skin sphere gets what 11 neighbours would give and the inner end wins [(B9) rel "
     "1e-14]") {
   Assembly a =
       bonded({{1, 0.002, {0, 0, -0.002}}, {2, 0.003, {0, 0, 0.003}}}, {Shape::box, 0.01, 0.02, 0.012});
@@ -202,7 +202,7 @@ TEST_CASE(
   // plane: 6 of them, a hexagon
   a.skin = {0, 1};
   const double side = 2 * std::tan(pi / 6);  // of the hexagon around a circle of radius 1
-  CHECK(areas(AreaRule::polyhedron, a, Space::plane)[0] == Approx(side * 2.5e-3).epsilon(1e-14));
+  CHECK(areas(AreaRule::polyhedron, a, Space::two_d)[0] == Approx(side * 2.5e-3).epsilon(1e-14));
 }
 
 TEST_CASE(
@@ -224,7 +224,7 @@ TEST_CASE(
     const bool misprint = n == 7 || n == 11 || n == 16;
     CHECK(f == Approx(table[n - 1]).epsilon(misprint ? 5e-3 : 6e-4));
     const double m = std::clamp(n, 3, 14),
-                 flat = sum(areas(AreaRule::polyhedron, a, Space::plane)) / (2 * pi * 1e-3);
+                 flat = sum(areas(AreaRule::polyhedron, a, Space::two_d)) / (2 * pi * 1e-3);
     CHECK(flat == Approx(m * std::tan(pi / m) / pi).epsilon(1e-12));
   }
 }
@@ -266,16 +266,16 @@ TEST_CASE("bond area: face centred cubic lattice has rhombic dodecahedra [vorono
 TEST_CASE("bond area: hexagonal discs have hexagons by voronoi and by polyhedron [d/sqrt(3) rel 1e-10]") {
   const double r = 0.0015;
   const Assembly a = hexagonal(12, 13, r);
-  const auto voronoi = areas(AreaRule::voronoi, a, Space::plane),
-             polyhedron = areas(AreaRule::polyhedron, a, Space::plane);
+  const auto voronoi = areas(AreaRule::voronoi, a, Space::two_d),
+             polyhedron = areas(AreaRule::polyhedron, a, Space::two_d);
   const auto inner = inner_bonds(a, 3.5 * r);
   REQUIRE(inner.size() > 150);
   for (const std::size_t k : inner) {
     CHECK(voronoi[k] == Approx(2 * r / std::numbers::sqrt3).epsilon(1e-10));
     CHECK(polyhedron[k] == Approx(2 * r / std::numbers::sqrt3).epsilon(1e-12));
   }
-  CHECK(sum(cells(a, Space::plane).volume) == Approx(a.body.diameter * a.body.height).epsilon(1e-10));
-  CHECK(sum(mantle_areas(a.particles, a.skin, a.body, Space::plane)) ==
+  CHECK(sum(cells(a, Space::two_d).volume) == Approx(a.body.diameter * a.body.height).epsilon(1e-10));
+  CHECK(sum(mantle_areas(a.particles, a.skin, a.body, Space::two_d)) ==
         Approx(2 * a.body.height).epsilon(1e-12));
 }
 
@@ -339,10 +339,10 @@ TEST_CASE("bond area: no rule asks which end is which nor for the number of thre
   for (const AreaRule rule : all_rules) {
     const auto one = areas(rule, a);
     REQUIRE(one.size() == a.bonds.size);
-    for (const int threads : {2, 3, 7}) CHECK(areas(rule, a, Space::solid, threads) == one);
+    for (const int threads : {2, 3, 7}) CHECK(areas(rule, a, Space::three_d, threads) == one);
     BondTable turned = a.bonds;
     std::swap(turned.row_lo, turned.row_hi);
-    CHECK(bond_areas(rule, a.particles, turned, a.skin, a.body, Space::solid, 2) == one);
+    CHECK(bond_areas(rule, a.particles, turned, a.skin, a.body, Space::three_d, 2) == one);
     // particles in the reverse order
     Assembly back = a;
     std::reverse(back.particles.radius.begin(), back.particles.radius.end());
@@ -357,20 +357,20 @@ TEST_CASE("bond area: no rule asks which end is which nor for the number of thre
     CHECK(worst < 1e-10 * a.mean_radius * a.mean_radius);
   }
   CHECK(mantle_areas(a.particles, a.skin, a.body) ==
-        mantle_areas(a.particles, a.skin, a.body, Space::solid, 3));
+        mantle_areas(a.particles, a.skin, a.body, Space::three_d, 3));
 }
 
 TEST_CASE("voronoi cells: a body that lies along y is the standing one turned [rel 1e-12]") {
   const Assembly& a = packed_cylinder();
   ParticleTable lying = a.particles;
   for (Vec3& x : lying.reference_position) x = {x.x, -x.z, x.y};  // mantle normals (c, s, 0) become (c, 0, s)
-  const auto turned = bond_areas(AreaRule::voronoi, lying, a.bonds, a.skin, a.body, Space::solid, 1, 'y');
+  const auto turned = bond_areas(AreaRule::voronoi, lying, a.bonds, a.skin, a.body, Space::three_d, 1, 'y');
   const auto standing = areas(AreaRule::voronoi, a);
   double worst = 0;
   for (std::size_t k = 0; k < standing.size(); ++k)
     worst = std::max(worst, std::abs(turned[k] - standing[k]));
   CHECK(worst < 1e-10 * a.mean_radius * a.mean_radius);
-  const auto weights = mantle_areas(lying, a.skin, a.body, Space::solid, 1, 'y'),
+  const auto weights = mantle_areas(lying, a.skin, a.body, Space::three_d, 1, 'y'),
              upright = mantle_areas(a.particles, a.skin, a.body);
   for (std::size_t k = 0; k < weights.size(); ++k) CHECK(weights[k] == Approx(upright[k]).epsilon(1e-8));
 }
@@ -382,7 +382,7 @@ TEST_CASE("voronoi cells: a lying disc in the plane has the section of the circl
   std::vector<double> r;
   for (std::size_t k = 0; k < a.particles.size; ++k)
     if (norm(a.particles.position[k]) < 0.015) x.push_back(a.particles.position[k]), r.push_back(0.0015);
-  const VoronoiCells c = voronoi_cells(x, r, a.body, Space::plane, 1, 'y');
+  const VoronoiCells c = voronoi_cells(x, r, a.body, Space::two_d, 1, 'y');
   CHECK(sum(c.volume) == Approx(pi * 0.015 * 0.015).epsilon(1e-10));
   double mantle = 0;
   for (const WallFace& f : c.wall_faces) {
@@ -500,7 +500,7 @@ TEST_CASE("section area: polyhedron gives the section of disc lattices [thesis t
   // 5 cm wide, 10 cm high and discs of 1.02 mm as the thesis' fourth mesh
   for (const Case& c : {Case{"hexagonal", hexagonal(24, 57, 0.00102)},
                         Case{"perturbed by 0.1 r", hexagonal(24, 57, 0.00102, 0.1, 0.15)}}) {
-    const Shares s = shares(c.a, c.a.body.diameter, Space::plane);
+    const Shares s = shares(c.a, c.a.body.diameter, Space::two_d);
     MESSAGE(c.name << ": " << c.a.bonds.size * 2.0 / c.a.particles.size
                    << " bonds a disc; area through levels over section: minimum " << s.minimum
                    << ", harmonic " << s.harmonic << ", polyhedron " << s.polyhedron << ", voronoi "
@@ -554,13 +554,13 @@ TEST_CASE("bond area: bad input is refused with its place") {
   a = good;
   a.body.depth = 0;
   CHECK_THROWS_AS(areas(AreaRule::voronoi, a), BadInput);
-  CHECK_NOTHROW(areas(AreaRule::voronoi, a, Space::plane));
+  CHECK_NOTHROW(areas(AreaRule::voronoi, a, Space::two_d));
   CHECK_THROWS_WITH_AS(
-      bond_areas(AreaRule::voronoi, good.particles, good.bonds, good.skin, good.body, Space::solid, 1, 'y'),
+      bond_areas(AreaRule::voronoi, good.particles, good.bonds, good.skin, good.body, Space::three_d, 1, 'y'),
       doctest::Contains("axis"), BadInput);
   a = good;
   a.particles.reference_position[0].y = 1e-3;
-  CHECK_THROWS_WITH_AS(areas(AreaRule::voronoi, a, Space::plane), doctest::Contains("out of the plane"),
+  CHECK_THROWS_WITH_AS(areas(AreaRule::voronoi, a, Space::two_d), doctest::Contains("out of the plane"),
                        BadInput);
   a.particles.reference_position[0] = a.particles.reference_position[1];
   CHECK_THROWS_WITH_AS(areas(AreaRule::voronoi, a), doctest::Contains("two particles"), BadInput);

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "core/state_hash.hpp"
+#include "core/tables/state_hash.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -255,7 +255,7 @@ TEST_CASE("bond pass: a bond's result does not depend on its place and neighbour
     }
 }
 
-TEST_CASE("bond pass: a scene runs its nearest superset, with the same spins [DESIGN: tables]") {
+TEST_CASE("bond pass: a scene runs its nearest superset, with the same spins") {
   for_each_law([]<class Law>(const Law& law) {
     for (const Features& built : Law::feature_sets) {
       INFO(Law::name);

@@ -1,7 +1,7 @@
 // What acts on a specimen from outside: pressure on the mantle, platens, their servo.
 #include <doctest/doctest.h>
 
-#include "kernels/integrate.hpp"
+#include "kernels/loops/integrate.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -15,7 +15,7 @@ Assembly packed(std::size_t spheres) {
 }  // namespace
 
 TEST_CASE(
-    "boundary: the weights of the skin add up to the nominal mantle, in the ratio of r^2 [MODEL 10, rel "
+    "boundary: the weights of the skin add up to the nominal mantle, in the ratio of r^2 [(B71), rel "
     "1e-13]") {
   const Assembly a = packed(400);
   const Confinement c = make_confinement(a, SkinWeights::radius, false);
@@ -36,14 +36,14 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "boundary: net force and all three moments of the pressure vanish [MODEL 10, 1e-13 of the sum of "
+    "boundary: net force and all three moments of the pressure vanish [(B72), 1e-13 of the sum of "
     "forces]") {
   Assembly a = packed(400);
   Confinement c = make_confinement(a, SkinWeights::radius, false);
   c.pressure = 9e6;
   for (Vec3& x : a.particles.position)
     x = {1.03 * x.x + 0.0004 + 0.01 * x.z, 0.97 * x.y - 0.0002, 0.98 * x.z + 0.0003};
-  press_skin(c, a.particles, share_alone(a.particles.size));
+  apply_confinement(c, a.particles, serial_partition(a.particles.size));
   Vec3 net, moment;
   double size = 0, inward = 0;
   for (std::size_t k = 0; k < c.rows.size(); ++k) {
@@ -67,7 +67,7 @@ TEST_CASE(
 
 TEST_CASE(
     "boundary: a servo on a spring comes to rest where the reaction is the pressure, without overshoot "
-    "[MODEL 10, 1e-9]") {
+    "[(B66), 1e-9]") {
   const Assembly a = packed(300);
   Assembly heavy = a;
   for (std::size_t k = 0; k < a.particles.size; ++k)
@@ -84,7 +84,7 @@ TEST_CASE(
     std::fill(t.force.begin(), t.force.end(), Vec3{});
     t.force[t.free].z = -0.25 * force, t.force[a.first_top - 1].z += -0.75 * force;
     t.force[a.first_top].z = 0.5 * force, t.force[t.size - 1].z += 0.5 * force;
-    drive_platens(p, t, share_alone(t.size), a.first_top, dt);
+    drive_platens(p, t, serial_partition(t.size), a.first_top, dt);
     most = std::max(most, scene::platen_stress(p)[0]);
   }
   for (const double stress : scene::platen_stress(p)) CHECK(stress == doctest::Approx(9e6).epsilon(1e-9));
@@ -119,7 +119,7 @@ TEST_CASE("boundary: without a servo platens keep their speed and read reactions
   ParticleTable t = a.particles;
   t.force[t.free] = {3, 5, -70}, t.force[a.first_top] = {-7, 1, 90}, t.force[0].z = 1e9;
   p.velocity = {Vec3{0.03, 0, 0.1}, Vec3{0, 0, -0.2}};
-  drive_platens(p, t, share_alone(t.size), a.first_top, 1e-3);
+  drive_platens(p, t, serial_partition(t.size), a.first_top, 1e-3);
   CHECK(p.force[0] == Vec3{3, 5, -70});
   CHECK(p.force[1] == Vec3{-7, 1, 90});
   CHECK(axial_stress(p) == doctest::Approx(80 / p.section).epsilon(1e-14));
@@ -135,7 +135,7 @@ TEST_CASE("boundary: without a servo platens keep their speed and read reactions
 
 TEST_CASE(
     "boundary: rough platens fix lateral motion, smooth ones leave it free, spins are free, global damping "
-    "[MODEL 7, 10]") {
+    "[(B64)]") {
   for (const bool rough : {true, false}) {
     std::vector<Vec3> x(1), v{{3, 0, 7}}, w{{0, 0, 2}}, f{{0, 5, 100}}, t{{0, 0, 4}};
     const std::vector<double> m{2}, r{0.5};

@@ -1,7 +1,7 @@
 // The laws of KDEM and of the contact bond: stiffnesses, strengths, friction; what the world makes of them.
 #include <doctest/doctest.h>
 
-#include "core/law_of_material.hpp"
+#include "core/bonding/law_of_material.hpp"
 #include "tests/follow.hpp"
 #include "tests/scene.hpp"
 
@@ -76,8 +76,8 @@ Assembly pairs(const std::vector<std::pair<double, double>>& radii, const Featur
 
 }  // namespace
 
-TEST_CASE("kdem: factors alpha and beta on k_n = E A/d0 and k_s = E A/(2 (1 + nu) d0) [MODEL 5 rel 1e-13]") {
-  const Assembly a = pairs({{0.01, 0.01}, {0.004, 0.01}, {0.003, 0.002}}, features, Space::solid);
+TEST_CASE("kdem: factors alpha and beta on k_n = E A/d0 and k_s = E A/(2 (1 + nu) d0) [(S5.7) rel 1e-13]") {
+  const Assembly a = pairs({{0.01, 0.01}, {0.004, 0.01}, {0.003, 0.002}}, features, Space::three_d);
   AreaFactor factor;
   factor.shear_ratio = paper_shear_ratio(0.2);
   WorldOptions o;
@@ -93,7 +93,7 @@ TEST_CASE("kdem: factors alpha and beta on k_n = E A/d0 and k_s = E A/(2 (1 + nu
 }
 
 TEST_CASE(
-    "kdem: elastic and brittle in tension and in shear - whatever the factors - friction afterwards [MODEL 5 "
+    "kdem: elastic and brittle in tension and in shear - whatever the factors - friction afterwards [(S5.7) "
     "1e-11]") {
   const Material m = kdem_material();
   const KdemLaw law = std::get<KdemLaw>(law_of(m, paper_shear_ratio(m.poisson_ratio)));
@@ -122,8 +122,8 @@ TEST_CASE(
   hold(law, bonds, paths, want, 16e6 * 8e-4);
 }
 
-TEST_CASE("contact bond: k_n and k_s and the damping's k_n do not depend on the radii [MODEL 5 exact]") {
-  const Assembly a = pairs({{0.01, 0.01}, {0.004, 0.01}, {0.003, 0.002}}, features, Space::plane);
+TEST_CASE("contact bond: k_n and k_s and the damping's k_n do not depend on the radii [(B28) exact]") {
+  const Assembly a = pairs({{0.01, 0.01}, {0.004, 0.01}, {0.003, 0.002}}, features, Space::two_d);
   WorldOptions o;
   o.features = features;
   for (const double alpha : {1.0, 3.0}) {  // nor on any factor of areas
@@ -146,7 +146,7 @@ TEST_CASE("contact bond: k_n and k_s and the damping's k_n do not depend on the 
 
 TEST_CASE(
     "contact bond: n_b and s_b break it whatever the area - one does not lower the other - friction after "
-    "[MODEL 5 1e-11]") {
+    "[(B28) 1e-11]") {
   const ContactBondLaw law = std::get<ContactBondLaw>(law_of(glue_material(), 0.4));
   std::vector<BondConstants<double>> bonds;
   std::vector<Path> paths;

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "io/case.hpp"
-#include "io/case_schema.hpp"
+#include "core/base/error.hpp"
+#include "io/cases/case.hpp"
+#include "io/cases/keys_schema.hpp"
 #include "scratch_folder.hpp"
 
 using namespace breccia;

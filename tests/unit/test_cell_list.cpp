@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "core/cell_list.hpp"
+#include "core/geometry/cell_list.hpp"
 
 using namespace breccia;
 

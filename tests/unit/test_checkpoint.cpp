@@ -4,12 +4,12 @@
 
 #include <fstream>
 
-#include "core/error.hpp"
-#include "core/state_hash.hpp"
-#include "io/case_change.hpp"
-#include "io/checkpoint.hpp"
-#include "io/file_checksum.hpp"
-#include "io/summary.hpp"
+#include "core/base/error.hpp"
+#include "core/tables/state_hash.hpp"
+#include "io/cases/changed_keys.hpp"
+#include "io/files/checksum.hpp"
+#include "io/results/checkpoint.hpp"
+#include "io/results/summary_json.hpp"
 #include "tests/scene.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
@@ -66,7 +66,8 @@ struct Outcome {
 };
 
 Outcome outcome_of(const World& w, const LoadState& state, const LoadResult& result) {
-  return {state_hash(w.particles, w.bonds), result, w.cracks.cracks.size(), state.frames, energy_error(w.ledger)};
+  return {state_hash(w.particles, w.bonds), result, w.cracks.cracks.size(), state.frames,
+          energy_error(w.ledger)};
 }
 
 LoadHooks usual_hooks() {
@@ -159,7 +160,9 @@ TEST_CASE("checkpoint: of two generations the newest whole one is taken, damage 
   LoadResult result;
   for (std::size_t run : {0u, 1u}) write_checkpoint(folder.path, {"c", run, "[]"}, w, state, result);
   std::vector<std::string> said;
-  const auto find = [&] { return find_checkpoint(folder.path, [&](const std::string& s) { said.push_back(s); }); };
+  const auto find = [&] {
+    return find_checkpoint(folder.path, [&](const std::string& s) { said.push_back(s); });
+  };
   CHECK(find()->head.run == 1);
   CHECK(said.empty());
   const auto flip = [&](const fs::path& file) {
@@ -188,7 +191,8 @@ TEST_CASE("checkpoint: a world of other spheres is refused") {
   const Assembly other = assemble(scene::small_packing(290), scene::small_cylinder(), {}, Features{}, 1);
   reference::Parameters p;
   World u = make_world(other, scene::material_of(p), scene::factor(p), {});
-  CHECK_THROWS_WITH_AS(read_checkpoint(*found, u, state, result), doctest::Contains("another specimen"), BadInput);
+  CHECK_THROWS_WITH_AS(read_checkpoint(*found, u, state, result), doctest::Contains("another specimen"),
+                       BadInput);
 }
 
 TEST_CASE("seal: every changed, missing or added byte is seen") {
@@ -198,7 +202,7 @@ TEST_CASE("seal: every changed, missing or added byte is seen") {
   const auto write = [&](const std::string& content) { std::ofstream(file, std::ios::binary) << content; };
   write(text);
   CHECK_FALSE(is_sealed(file));
-  seal(file);
+  append_checksum(file);
   CHECK(is_sealed(file));
   std::ifstream in(file, std::ios::binary);
   const std::string sealed{std::istreambuf_iterator<char>(in), {}};
@@ -218,15 +222,19 @@ TEST_CASE("seal: every changed, missing or added byte is seen") {
 }
 
 TEST_CASE("case change: keys that differ are named, those of output and checkpoints are not") {
-  const std::string before = "# a case\n[test]\nspeed = 1\nstop = \"2 mm\"\n\n[output]\nframes = 3\n[run]\ncheckpoint_every = 1\n";
+  const std::string before =
+      "# a case\n[test]\nspeed = 1\nstop = \"2 mm\"\n\n[output]\nframes = 3\n[run]\ncheckpoint_every = 1\n";
   CHECK(changed_keys(before, before).empty());
-  CHECK(changed_keys(before, "[test]\nspeed = 1\nstop = \"2 mm\"\n[output]\nframes = 0\n[run]\ncheckpoint_every = 2\n").empty());
+  CHECK(changed_keys(
+            before, "[test]\nspeed = 1\nstop = \"2 mm\"\n[output]\nframes = 0\n[run]\ncheckpoint_every = 2\n")
+            .empty());
   const auto changed = changed_keys(before, "[test]\nspeed = 2\nnew = 1\n");
   REQUIRE(changed.size() == 3);
   CHECK(changed[0] == "test.new = 1, was absent");
   CHECK(changed[1] == "test.speed = 2, was 1");
   CHECK(changed[2] == "test.stop absent, was \"2 mm\"");
-  CHECK(changed_keys("[[material.at]]\nE = 1\n[[material.at]]\nE = 2\n", "[[material.at]]\nE = 1\n[[material.at]]\nE = 3\n") ==
+  CHECK(changed_keys("[[material.at]]\nE = 1\n[[material.at]]\nE = 2\n",
+                     "[[material.at]]\nE = 1\n[[material.at]]\nE = 3\n") ==
         std::vector<std::string>{"material.at[1].E = 3, was 2"});
 }
 

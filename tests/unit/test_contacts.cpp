@@ -94,12 +94,12 @@ TEST_CASE(
   add_bonded_pair(balls);
   World w = world_of(balls, p);
   w.dt *= 0.2;
-  w.search.check_every = 40;  // too seldom for the fastest: the search has to see that
+  w.neighbour_list.check_every = 40;  // too seldom for the fastest: the search has to see that
   const Watch seen = watch(w, 4000);
   CHECK(seen.met > 500);
   CHECK(seen.missed == 0);
-  CHECK(w.search.rebuilds > 3);
-  CHECK(w.search.rebuilds < 2000);
+  CHECK(w.neighbour_list.rebuilds > 3);
+  CHECK(w.neighbour_list.rebuilds < 2000);
 }
 
 TEST_CASE(
@@ -114,7 +114,7 @@ TEST_CASE(
   balls.push_back({23, 0.002, {0, 0.5, 0}, 99});  // the only near pair at the start
   balls.push_back({24, 0.002, {0, 0.504, 0}, 99});
   World w = world_of(balls, p);
-  REQUIRE(0.022 - 2 * 0.0098 > w.search.skin);
+  REQUIRE(0.022 - 2 * 0.0098 > w.neighbour_list.skin);
   const Watch seen = watch(w, int(0.9 / w.dt));
   CHECK(seen.met > 100);
   CHECK(seen.missed == 0);
@@ -136,7 +136,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "contacts: pairs that overlap unbonded lie still, and are ordinary contacts once parted [MODEL 2, rel "
+    "contacts: pairs that overlap unbonded lie still, and are ordinary contacts once parted [(B31), rel "
     "1e-12]") {
   ref::Parameters p;
   p.contact_damping = false;
@@ -185,8 +185,8 @@ TEST_CASE("contacts: a new list keeps the friction and free length of pairs in c
                                                             w.contacts.shear_force[k]};
   }
   w.particles.position[3] = {0.0305, 0, 0};  // a new neighbour, so that rows shift
-  renew_contacts(w.search, w.contacts, w.particles,
-                 {w.material.young_modulus, w.alpha}, w.options.features, false, 1);
+  renew_contacts(w.neighbour_list, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, w.options.features,
+                 false, 1);
   CHECK(w.contacts.size > before.size());
   std::size_t kept = 0;
   for (std::size_t k = 0; k < w.contacts.size; ++k) {
@@ -211,6 +211,6 @@ TEST_CASE("contacts: switched off, nothing is ever searched for [exact]") {
   add_bonded_pair(balls);
   World w = world_of(balls, p);
   for (int k = 0; k < 400; ++k) advance(w);
-  CHECK(w.search.rebuilds == 0);
+  CHECK(w.neighbour_list.rebuilds == 0);
   CHECK(w.particles.velocity[0] == Vec3{1, 0, 0});
 }

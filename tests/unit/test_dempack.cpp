@@ -1,11 +1,11 @@
 // The law of a bond as the production loop runs it, one number at a time and in wide registers whose lanes
-// carry different bonds: against closed forms of MODEL sections 3 and 4, and against the reference on random
+// carry different bonds: against closed forms of docs/model.md, and against the reference on random
 // paths.
 #include <doctest/doctest.h>
 
 #include <random>
 
-#include "kernels/bond_energy.hpp"
+#include "kernels/loops/bond_energy.hpp"
 #include "tests/follow.hpp"
 #include "tests/scene.hpp"
 
@@ -275,7 +275,7 @@ constexpr Features uncoupled = features_of(Criterion::uncoupled), coupled = feat
 }  // namespace
 
 TEST_CASE(
-    "dempack/normal: slopes, unloading, through zero, softening, damage kept [MODEL 3, closed form, 1e-12]") {
+    "dempack/normal: slopes, unloading, through zero, softening, damage kept [(P53), closed form, 1e-12]") {
   const Parameters p = tough();
   std::vector<Claim> claims;
   add_compression(p, claims);
@@ -286,7 +286,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "dempack/shear: softening, Coulomb line, broken bonds and their friction [MODEL 4, closed form, 1e-12]") {
+    "dempack/shear: softening, Coulomb line, broken bonds and their friction [(P45), closed form, 1e-12]") {
   const Parameters p = tough();
   std::vector<Claim> claims;
   add_shear(p, claims);
@@ -297,7 +297,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "dempack/shear: a stronger pressure reloads with the secant stiffness to (1 - D) S [MODEL 4, 1e-12]") {
+    "dempack/shear: a stronger pressure reloads with the secant stiffness to (1 - D) S [(B21), 1e-12]") {
   Parameters p;
   p.delta_s = 1.0;
   p.mu2 = 0;
@@ -325,7 +325,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "dempack/shear: a failing bond hands friction no more than it carried: |F| := min(|F|, R) [MODEL 4, "
+    "dempack/shear: a failing bond hands friction no more than it carried: |F| := min(|F|, R) [(B21), "
     "1e-12]") {
   Parameters p;
   p.delta_s = 1.0;
@@ -346,7 +346,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "dempack/law: uncoupled, tension and shear know nothing of each other until one breaks [MODEL 4, "
+    "dempack/law: uncoupled, tension and shear know nothing of each other until one breaks [(P41), "
     "1e-12]") {
   const Parameters p;
   std::vector<Claim> claims;
@@ -361,7 +361,7 @@ TEST_CASE(
   hold<uncoupled>(p, claims);
 }
 
-TEST_CASE("dempack/law: delta = 0 breaks at once, in tension and in shear [MODEL 3 and 4, 1e-12]") {
+TEST_CASE("dempack/law: delta = 0 breaks at once, in tension and in shear [(P49), 1e-12]") {
   Parameters p;
   p.delta_n = p.delta_s = 0;
   std::vector<Claim> claims;
@@ -386,7 +386,7 @@ TEST_CASE("dempack/law: delta = 0 breaks at once, in tension and in shear [MODEL
   hold<uncoupled>(p, claims);
 }
 
-TEST_CASE("dempack/law: delta from fracture energies, different in every bond [MODEL 3, 1e-12]") {
+TEST_CASE("dempack/law: delta from fracture energies, different in every bond [(B18), 1e-12]") {
   Parameters p;
   p.G_I = 25;
   p.G_II = 900;
@@ -415,7 +415,7 @@ TEST_CASE("dempack/law: delta from fracture energies, different in every bond [M
 }
 
 TEST_CASE(
-    "dempack/coupled: one damage for both forces of a pulled bond, kept when it closes [MODEL 4, 1e-12]") {
+    "dempack/coupled: one damage for both forces of a pulled bond, kept when it closes [(B24), 1e-12]") {
   Parameters p;
   p.criterion = ref::Criterion::coupled;
   p.delta_n = 0.3;
@@ -453,7 +453,7 @@ TEST_CASE(
   hold<coupled>(p, claims);
 }
 
-TEST_CASE("dempack/mohr-coulomb: tension lowers the shear strength, pressure raises it [MODEL 4, 1e-12]") {
+TEST_CASE("dempack/mohr-coulomb: tension lowers the shear strength, pressure raises it [(B23), 1e-12]") {
   Parameters p;
   p.criterion = ref::Criterion::mohr_coulomb;
   p.delta_s = 0.5;
@@ -483,8 +483,7 @@ TEST_CASE("dempack/mohr-coulomb: tension lowers the shear strength, pressure rai
   hold<mohr_coulomb>(p, claims);
 }
 
-TEST_CASE(
-    "dempack/toggles: no breakage and no plasticity is a spring, either alone is kept [MODEL 3, 1e-12]") {
+TEST_CASE("dempack/toggles: no breakage and no plasticity is a spring, either alone is kept [(P29), 1e-12]") {
   const Parameters p = tough();
   std::vector<Claim> spring, plastic;
   for (const Bond& b : several_bonds(p)) {
@@ -632,7 +631,7 @@ TEST_CASE(
   hold_random<Features{.plasticity = false, .breakage = false}>(Parameters{}, 17);
 }
 
-TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2) [MODEL 4 and 9]") {
+TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2) [(B53)]") {
   const Parameters p = tough();
   const Bond b = several_bonds(p)[1];
   const DempackLaw law = scene::law(p);
@@ -689,8 +688,8 @@ TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2
 }
 
 TEST_CASE(
-    "dempack/padding: bonds without area and stiffness give exact zeros beside bonds in any state [DESIGN: "
-    "tables]") {
+    "dempack/padding: bonds without area and stiffness give exact zeros beside bonds in any "
+    "state") {
   const auto with = [&]<Features features, class R>(R) {
     Parameters p = tough();
     p.criterion = static_cast<ref::Criterion>(features.criterion);

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "core/error_estimate.hpp"
+#include "core/loading/error_estimate.hpp"
 
 using namespace breccia;
 

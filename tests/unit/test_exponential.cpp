@@ -1,11 +1,12 @@
-// The exponential law: against closed forms of MODEL section 5, one number at a time and in wide registers.
+// The exponential law: against closed forms of docs/model.md, "Exponential", one number at a time
+// and in wide registers.
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
 
-#include "kernels/exponential.hpp"
+#include "kernels/laws/exponential.hpp"
 #include "tests/follow.hpp"
 
 using namespace breccia;
@@ -18,7 +19,7 @@ namespace {
 constexpr double exact = 1e-12;
 constexpr Features features{.criterion = Criterion::mohr_coulomb};
 
-struct Set {  ///< MODEL section 5
+struct Set {  ///< the standard set of docs/model.md, "Exponential"
   double E = 30e9, e_max = 0.002, g1 = 0.2, g2 = 16, g3 = 0.275, sigma_t = 10e6, C = 13e6;
   double tan_i = std::tan(30 * 3.14159265358979 / 180), tan_c = 0.4, kappa = 1 / 2.4, delta_n = 0,
          delta_s = 0;
@@ -58,7 +59,7 @@ void in_every_width(const Set& s, const std::vector<BondConstants<double>>& bond
   check("8 lanes", scene::follow<features, stdx::fixed_size_simd<double, 8>>(law(s), bonds, paths));
 }
 
-/// Stress over the envelope, straight from the formula of MODEL section 5.
+/// Stress over the envelope, straight from the formula (B26).
 double envelope(const Set& s, double e) {
   if (e <= s.e_max) return s.E * e;
   const double K2 = std::min(s.E, s.E * s.g3 + s.E * s.g1 * std::exp(s.g2 * (e - s.e_max)));
@@ -100,7 +101,7 @@ TEST_CASE("lanes: exponential() is std::exp from -6 to 6 [rel 1e-14] and 1 at 0 
 }
 
 TEST_CASE(
-    "exponential law: the envelope - from the elastic part over the falling secant to its rise [MODEL 5 "
+    "exponential law: the envelope - from the elastic part over the falling secant to its rise [(B25) "
     "1e-12]") {
   const Set s;
   const auto bonds = several_bonds(s);
@@ -125,7 +126,7 @@ TEST_CASE(
   });
 }
 
-TEST_CASE("exponential law: no jump in force anywhere - never stiffer than k_n - K2 at most k_n [MODEL 5]") {
+TEST_CASE("exponential law: no jump in force anywhere - never stiffer than k_n - K2 at most k_n [(B25)]") {
   const Set s;
   const BondConstants<double> b = several_bonds(s)[0];
   const Path path = ramp(b, {0.2}, 40000);
@@ -167,8 +168,8 @@ TEST_CASE("exponential law: no jump in force anywhere - never stiffer than k_n -
 }
 
 TEST_CASE(
-    "exponential law: unloading with k_n through u_p - tension from there - reloading to the envelope [MODEL "
-    "5 1e-12]") {
+    "exponential law: unloading with k_n through u_p - tension from there - reloading to the envelope "
+    "[(B26) 1e-12]") {
   for (const double delta : {0.0, 0.5}) {
     Set s;
     s.delta_n = delta;
@@ -208,7 +209,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "exponential law: shear strength C A - F_n tan phi for either sign of F_n - then N tan phi_c [MODEL 5 "
+    "exponential law: shear strength C A - F_n tan phi for either sign of F_n - then N tan phi_c [(B27) "
     "1e-12]") {
   const Set s;
   const auto bonds = several_bonds(s);

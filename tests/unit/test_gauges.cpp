@@ -1,12 +1,12 @@
 // Gauges on displacement fields that are known.
 #include <doctest/doctest.h>
 
-#include "core/gauges.hpp"
+#include "core/elastic/gauges.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
 
-TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shifted by [MODEL 10, 1e-14]") {
+TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shifted by [(B76), 1e-14]") {
   const Assembly a = assemble(scene::small_packing(400), scene::small_cylinder(), {}, Features{}, 1);
   const auto& x = a.particles.reference_position;
   const Gauge axial = axial_gauge(a), radial = lateral_gauge(a);
@@ -15,7 +15,8 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
   const auto strains = [&](auto displacement) {
     std::vector<Vec3> moved(x.size());
     for (std::size_t k = 0; k < x.size(); ++k) moved[k] = x[k] + displacement(x[k]);
-    return std::pair{read_gauge(axial, moved, x, share_alone(x.size())), read_gauge(radial, moved, x, share_alone(x.size()))};
+    return std::pair{read_gauge(axial, moved, x, serial_partition(x.size())),
+                     read_gauge(radial, moved, x, serial_partition(x.size()))};
   };
   // shortened by 2e-3 along z, widened by 5e-4 across; positive in compression
   const auto [e_z, e_r] = strains([](const Vec3& p) {
@@ -35,7 +36,7 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
   CHECK(m_r == 0);
   // and the radial one no further than the middle 40 % of the skin
   const auto [far, r_r] = strains([](const Vec3& p) {
-    return std::abs(p.z) < 0.02 && at_mantle(scene::small_cylinder(), Space::solid, p, 0, 0.02)
+    return std::abs(p.z) < 0.02 && at_mantle(scene::small_cylinder(), Space::three_d, p, 0, 0.02)
                ? Vec3{1e-3 * p.x, 1e-3 * p.y, 0}
                : Vec3{};
   });
@@ -48,13 +49,13 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
 }
 
 TEST_CASE(
-    "gauges: of a standing disc and of a rectangle in a plane the widening along x alone [MODEL 10 1e-14]") {
+    "gauges: of a standing disc and of a rectangle in a plane the widening along x alone [(B78) 1e-14]") {
   for (const bool disc : {true, false}) {
     Assembly a = assemble(scene::small_packing(400), scene::small_cylinder(), {}, Features{}, 1);
     if (disc)
       a.body = {Shape::disc, 0.05, 0, 0.10, true};  // pressed along z over its diameter
     else
-      a.space = Space::plane;
+      a.space = Space::two_d;
     const auto& x = a.particles.reference_position;
     const Gauge g = lateral_gauge(a);
     std::size_t within =
@@ -66,6 +67,6 @@ TEST_CASE(
     std::vector<Vec3> moved;
     for (const Vec3& p : x) moved.push_back(p + Vec3{5e-4 * p.x + 0.01, -7e-4 * p.y + 1, 3e-4 * p.z});
     INFO("disc ", disc);
-    CHECK(std::abs(read_gauge(g, moved, x, share_alone(x.size())) + 5e-4) < 1e-14);
+    CHECK(std::abs(read_gauge(g, moved, x, serial_partition(x.size())) + 5e-4) < 1e-14);
   }
 }

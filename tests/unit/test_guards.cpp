@@ -2,9 +2,9 @@
 // specimen that fails as violently as the law allows.
 #include <doctest/doctest.h>
 
-#include "core/error.hpp"
-#include "core/guards.hpp"
-#include "core/load_test.hpp"
+#include "core/base/error.hpp"
+#include "core/loading/stability_checks.hpp"
+#include "core/loading/protocol.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -25,10 +25,10 @@ Packed packed(const ref::Parameters& p, std::size_t spheres = 200) {
   return made;
 }
 
-void look(Guards& guards, const World& w) { check(guards, w, kinetic_energy(w), stored_energy(w)); }
+void look(StabilityChecks& guards, const World& w) { check(guards, w, kinetic_energy(w), stored_energy(w)); }
 
 /// What a guard says, empty where none fires.
-std::string said(Guards guards, const World& w) {
+std::string said(StabilityChecks checks, const World& w) {
   try {
     look(guards, w);
   } catch (const SimulationBroke& why) {
@@ -63,7 +63,7 @@ std::string end_of(Packed& made, const LoadTest& test) {
 TEST_CASE("guards: a number that is lost is named with its particle and bond") {
   Packed made = packed({});
   World& w = made.world;
-  const Guards guards = make_guards(w);
+  const StabilityChecks checks = make_stability_checks(w);
   CHECK(said(guards, w) == "");
   w.particles.velocity[17].y = std::nan("");
   const std::string velocity = said(guards, w);
@@ -161,9 +161,9 @@ TEST_CASE("guards: a particle faster than a wave, sqrt(2 k/m) d0 for equal spher
   }
   CHECK(fastest_wave(w) == doctest::Approx(std::sqrt(square)).epsilon(1e-12));
   w.particles.velocity[3].x = 0.99 * fastest_wave(w);
-  CHECK(said(make_guards(w), w) == "");
+  CHECK(said(make_stability_checks(w), w) == "");
   w.particles.velocity[3].x = 1.01 * fastest_wave(w);
-  CHECK(has(said(make_guards(w), w), fmt::format("particle {} moves at", w.particles.gid[3])));
+  CHECK(has(said(make_stability_checks(w), w), fmt::format("particle {} moves at", w.particles.gid[3])));
 }
 
 TEST_CASE("guards: a bond that turns through more than a right angle in a step, of nested spheres") {
@@ -172,9 +172,9 @@ TEST_CASE("guards: a bond that turns through more than a right angle in a step, 
                                 0.01, scene::options(p).features);
   World w = make_world(a, scene::material_of(p), scene::factor(p), scene::options(p));
   w.particles.velocity[2].x = 0.9e-6 / w.dt;
-  CHECK(said(make_guards(w), w) == "");
+  CHECK(said(make_stability_checks(w), w) == "");
   w.particles.velocity[2].x = 1.1e-6 / w.dt;
-  const std::string why = said(make_guards(w), w);
+  const std::string why = said(make_stability_checks(w), w);
   INFO(why);
   CHECK(has(why, "bond 4-9, 1e-06 m long, has turned through more than a right angle"));
   CHECK(has(why, "the spheres are nested"));
@@ -183,7 +183,7 @@ TEST_CASE("guards: a bond that turns through more than a right angle in a step, 
 TEST_CASE("guards: a particle is lost ten sizes away") {
   Packed made = packed({});
   World& w = made.world;
-  const Guards guards = make_guards(w);
+  const StabilityChecks checks = make_stability_checks(w);
   std::fill(w.bonds.damage_normal.begin(), w.bonds.damage_normal.end(), 1.0);
   w.particles.position[8].x += 9.0 * guards.size;
   CHECK(said(guards, w) == "");
@@ -200,7 +200,7 @@ TEST_CASE("guards: contacts that are stiffer than what the step was found from a
   c.free_length[0] = 1.0;
   c.stiffness[0] = 8.0 * w.particles.mass[2] / (w.dt * w.dt);
   w.particles.velocity[2].z = std::nan("");
-  const std::string why = said(make_guards(w), w);
+  const std::string why = said(make_stability_checks(w), w);
   INFO(why);
   CHECK(has(why, "the contacts that have formed on it"));
 }

@@ -2,10 +2,10 @@
 
 #include <random>
 
-#include "kernels/hertz_mindlin.hpp"
-#include "kernels/restitution.hpp"
-#include "kernels/rolling_friction.hpp"
-#include "kernels/wall.hpp"
+#include "kernels/laws/hertz_mindlin.hpp"
+#include "kernels/laws/restitution.hpp"
+#include "kernels/laws/rolling_friction.hpp"
+#include "kernels/math/wall.hpp"
 
 using namespace breccia;
 

@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "core/error.hpp"
-#include "io/case_schema.hpp"
-#include "io/impact_case.hpp"
-#include "io/impact_keys.hpp"
+#include "core/base/error.hpp"
+#include "io/cases/impact_case.hpp"
+#include "io/cases/impact_keys.hpp"
+#include "io/cases/keys_schema.hpp"
 #include "scratch_folder.hpp"
 
 using namespace breccia;
@@ -139,7 +139,7 @@ TEST_CASE("impact case: every declaration is whole and the printed reference lis
       INFO(field.key.name);
       CHECK(!field.key.meaning.empty());
       CHECK(bool(field.store));
-      CHECK(!(field.required && !field.key.standard.empty()));
+      CHECK(!(field.required && !field.key.default_text.empty()));
       const std::string word(field.key.name.substr(field.key.name.rfind('.') + 1));
       CHECK(help.find("  " + word + " ") != std::string::npos);
     }

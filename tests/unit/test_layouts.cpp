@@ -5,9 +5,9 @@
 #include <limits>
 #include <random>
 
-#include "core/layouts/layout_study.hpp"
-#include "core/layouts/machine_rates.hpp"
-#include "kernels/bond_force.hpp"
+#include "core/studies/layouts/layout_study.hpp"
+#include "core/studies/layouts/machine_rates.hpp"
+#include "kernels/laws/bond_force.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -21,7 +21,7 @@ World crushed(Precision precision, int steps, double speed, InstructionSet set, 
     scene::drive(w, speed, -speed);
     advance(w);
   }
-  settle(w);
+  sync(w);
   return w;
 }
 

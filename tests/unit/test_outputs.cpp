@@ -16,13 +16,13 @@
 #include <sstream>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/row_order.hpp"
-#include "io/curve.hpp"
-#include "io/results_h5.hpp"
-#include "io/summary.hpp"
-#include "io/vtp.hpp"
-#include "io/write_aside.hpp"
+#include "core/base/error.hpp"
+#include "core/tables/row_order.hpp"
+#include "io/files/atomic_write.hpp"
+#include "io/results/curve_csv.hpp"
+#include "io/results/results_h5.hpp"
+#include "io/results/summary_json.hpp"
+#include "io/results/vtp.hpp"
 
 namespace fs = std::filesystem;
 using namespace breccia;
@@ -48,12 +48,12 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The line of the FileTrouble that `write` throws; empty when it does not.
+/// The line of the WriteError that `write` throws; empty when it does not.
 template <class Write>
 std::string trouble_of(Write&& write) {
   try {
     write();
-  } catch (const FileTrouble& trouble) {
+  } catch (const WriteError& trouble) {
     return trouble.what();
   }
   return "";
@@ -172,21 +172,21 @@ TEST_CASE("outputs: rows leave in order of global ids, without the padding") {
   CHECK(rows_by_ends(scene.bonds) == std::vector<Row>{1, 2, 3, 0});
 }
 
-TEST_CASE("outputs: write_aside replaces a file and leaves nothing beside it") {
+TEST_CASE("outputs: atomic_write replaces a file and leaves nothing beside it") {
   const TemporaryFolder folder;
-  write_aside(folder.path / "a.txt", "old");
-  write_aside(folder.path / "a.txt", "new");
+  atomic_write(folder.path / "a.txt", "old");
+  atomic_write(folder.path / "a.txt", "new");
   CHECK(text_of(folder.path / "a.txt") == "new");
   CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
 TEST_CASE("outputs: a path below a regular file is refused in one line with file, cause and cure") {
   const TemporaryFolder folder;
-  write_aside(folder.path / "file", "x");
+  atomic_write(folder.path / "file", "x");
   const fs::path below = folder.path / "file" / "curve-0.csv";
   const Scene scene;
   for (const std::string& line :
-       {trouble_of([&] { write_aside(below, "x"); }), trouble_of([&] { make_folder(below); }),
+       {trouble_of([&] { atomic_write(below, "x"); }), trouble_of([&] { make_folder(below); }),
         trouble_of([&] { create_results(below, ""); }), trouble_of([&] { write_curve(below, {}); }),
         trouble_of([&] { write_frame_vtp(below, 0, 0, 0.0, scene.particles, scene.bonds); })}) {
     CAPTURE(line);
@@ -198,13 +198,15 @@ TEST_CASE("outputs: a path below a regular file is refused in one line with file
   CHECK(contains(trouble_of([&] { make_folder(folder.path / "file"); }), "Not a directory"));
 }
 
-TEST_CASE("outputs: a file that is not HDF5, or is gone, is a FileTrouble in one line") {
+TEST_CASE("outputs: a file that is not HDF5, or is gone, is a WriteError in one line") {
   const TemporaryFolder folder;
   const Scene scene;
   const fs::path file = folder.path / "results.h5";
-  const auto append = [&] { append_frame(file, 0, 0, {}, share_alone(scene.particles.size), scene.particles, scene.bonds); };
+  const auto append = [&] {
+    append_frame(file, 0, 0, {}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
+  };
   CHECK(contains(trouble_of(append), "No such file"));
-  write_aside(file, "not HDF5");
+  atomic_write(file, "not HDF5");
   const std::string line = trouble_of(append);
   CAPTURE(line);
   CHECK(contains(line, "results.h5"));
@@ -290,15 +292,16 @@ TEST_CASE("outputs: results.h5 as h5py reads it") {
   const fs::path file = folder.path / "results.h5";
   create_results(file,
                  "[material]\npreset = \"concrete\"\n" + std::string(70000, '#'));  // beyond the old 64 kB
-  begin_run(file, 0, attributes, share_alone(scene.particles.size), scene.particles, scene.bonds);
-  append_frame(file, 0, 0, {0.0, 0, 0.0}, share_alone(scene.particles.size), scene.particles, scene.bonds);
-  append_frame(file, 0, 1, {1e-3, 10, 1e-4}, share_alone(scene.particles.size), scene.particles, scene.bonds);
-  append_frame(file, 0, 1, {2e-3, 20, 2e-4}, share_alone(scene.particles.size), scene.particles, scene.bonds);  // as after a resume
+  begin_run(file, 0, attributes, serial_partition(scene.particles.size), scene.particles, scene.bonds);
+  append_frame(file, 0, 0, {0.0, 0, 0.0}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
+  append_frame(file, 0, 1, {1e-3, 10, 1e-4}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
+  append_frame(file, 0, 1, {2e-3, 20, 2e-4}, serial_partition(scene.particles.size), scene.particles,
+               scene.bonds);  // as after a resume
   Features few;
   few.rotation = few.contact_damping = few.plasticity = few.breakage = false;
   const Scene lean(few);
-  begin_run(file, 1, attributes, share_alone(lean.particles.size), lean.particles, lean.bonds);
-  append_frame(file, 1, 0, {0.0, 0, 0.0}, share_alone(lean.particles.size), lean.particles, lean.bonds);
+  begin_run(file, 1, attributes, serial_partition(lean.particles.size), lean.particles, lean.bonds);
+  append_frame(file, 1, 0, {0.0, 0, 0.0}, serial_partition(lean.particles.size), lean.particles, lean.bonds);
   check_with_python("h5 '" + file.string() + "'");
 }
 
@@ -316,8 +319,10 @@ TEST_CASE("outputs: a specimen without bonds is written and read") {
   Scene scene;
   scene.bonds.resize(0, {}, 8);
   create_results(folder.path / "results.h5", "");
-  begin_run(folder.path / "results.h5", 0, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
-  append_frame(folder.path / "results.h5", 0, 0, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  begin_run(folder.path / "results.h5", 0, {}, serial_partition(scene.particles.size), scene.particles,
+            scene.bonds);
+  append_frame(folder.path / "results.h5", 0, 0, {}, serial_partition(scene.particles.size), scene.particles,
+               scene.bonds);
   write_frame_vtp(folder.path / "frames", 0, 0, 0.0, scene.particles, scene.bonds);
   check_with_python("no-bonds '" + folder.path.string() + "'");
 }
@@ -327,10 +332,10 @@ TEST_CASE("outputs: results.h5 stays within the space it claims, and gives back 
   const fs::path file = folder.path / "results.h5";
   const Scene scene = noise(20000, 40000);
   create_results(file, "");
-  begin_run(file, 0, attributes, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  begin_run(file, 0, attributes, serial_partition(scene.particles.size), scene.particles, scene.bonds);
   for (int frame = 0; frame < 3; ++frame) {
     const std::uintmax_t before = fs::file_size(file);
-    append_frame(file, 0, frame, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+    append_frame(file, 0, frame, {}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
     const double raw = 20000 * 72.0 + 40000 * 49.0;  // bytes of the columns that change
     const double grown = static_cast<double>(fs::file_size(file) - before);
     CHECK(grown > 0.9 * raw);
@@ -345,11 +350,13 @@ TEST_CASE("outputs: on a full disk the earlier frames stay readable, and one lin
   const Scene scene = noise(1000, 2000);
   const fs::path file = disk.path / "results.h5";
   create_results(file, "");
-  begin_run(file, 0, attributes, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  begin_run(file, 0, attributes, serial_partition(scene.particles.size), scene.particles, scene.bonds);
   int frames = 0;
   std::string line;
   while (frames < 20 && line.empty()) {
-    line = trouble_of([&] { append_frame(file, 0, frames, {}, share_alone(scene.particles.size), scene.particles, scene.bonds); });
+    line = trouble_of([&] {
+      append_frame(file, 0, frames, {}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
+    });
     if (line.empty()) ++frames;
   }
   CAPTURE(line);
@@ -360,9 +367,9 @@ TEST_CASE("outputs: on a full disk the earlier frames stay readable, and one lin
   check_with_python("frames '" + file.string() + "' " + std::to_string(frames));
 
   // what is left does not hold this one either; the old content survives, the half of the new one goes
-  write_aside(disk.path / "curve-0.csv", "old");
+  atomic_write(disk.path / "curve-0.csv", "old");
   const std::string large(1 << 20, 'x');
-  CHECK(contains(trouble_of([&] { write_aside(disk.path / "curve-0.csv", large); }), "No space left"));
+  CHECK(contains(trouble_of([&] { atomic_write(disk.path / "curve-0.csv", large); }), "No space left"));
   CHECK(text_of(disk.path / "curve-0.csv") == "old");
   CHECK(!fs::exists(name_aside(disk.path / "curve-0.csv")));
   CHECK(contains(trouble_of([&] {
@@ -374,7 +381,7 @@ TEST_CASE("outputs: on a full disk the earlier frames stay readable, and one lin
   fs::remove_all(disk.path / "run-0");
   fs::remove(disk.path / "curve-0.csv");
   REQUIRE(::mount("tmpfs", disk.path.c_str(), "tmpfs", MS_REMOUNT, "size=4m") == 0);
-  append_frame(file, 0, frames, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  append_frame(file, 0, frames, {}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
   check_with_python("frames '" + file.string() + "' " + std::to_string(frames + 1));
 }
 
@@ -387,14 +394,14 @@ TEST_CASE(
   for (int trial = 0; trial < 8; ++trial) {
     const fs::path file = folder.path / (std::to_string(trial) + ".h5");
     create_results(file, "");
-    begin_run(file, 0, attributes, share_alone(scene.particles.size), scene.particles, scene.bonds);
+    begin_run(file, 0, attributes, serial_partition(scene.particles.size), scene.particles, scene.bonds);
     int written[2];
     REQUIRE(::pipe(written) == 0);
     const pid_t child = ::fork();
     REQUIRE(child >= 0);
     if (child == 0) {
       for (int frame = 0;; ++frame) {
-        append_frame(file, 0, frame, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+        append_frame(file, 0, frame, {}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
         if (::write(written[1], "x", 1) != 1) ::_exit(1);
       }
     }
@@ -406,7 +413,8 @@ TEST_CASE(
     ::waitpid(child, nullptr, 0);
     while (const ssize_t more = ::read(written[0], buffer, sizeof buffer)) frames += more;
     ::close(written[0]);
-    append_frame(file, 0, static_cast<int>(frames), {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+    append_frame(file, 0, static_cast<int>(frames), {}, serial_partition(scene.particles.size), scene.particles,
+                 scene.bonds);
     arguments += " '" + file.string() + "' " + std::to_string(frames + 1);
   }
   check_with_python(arguments);
@@ -417,8 +425,10 @@ TEST_CASE("outputs: more frames and runs than usual") {
   const Scene scene;
   const fs::path file = folder.path / "results.h5";
   create_results(file, "");
-  for (int run = 0; run < 70; ++run) begin_run(file, run, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
-  for (int frame = 0; frame < 140; ++frame) append_frame(file, 0, frame, {}, share_alone(scene.particles.size), scene.particles, scene.bonds);
+  for (int run = 0; run < 70; ++run)
+    begin_run(file, run, {}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
+  for (int frame = 0; frame < 140; ++frame)
+    append_frame(file, 0, frame, {}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
   check_with_python("frames '" + file.string() + "' 140");
 }
 
@@ -427,7 +437,7 @@ TEST_CASE("outputs: a folder that cannot be written to is named with the cure") 
   const SmallDisk disk(folder.path / "disk", "size=1m");
   if (!disk.mounted) return;
   REQUIRE(::mount("tmpfs", disk.path.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, nullptr) == 0);
-  for (const std::string& line : {trouble_of([&] { write_aside(disk.path / "summary.json", "x"); }),
+  for (const std::string& line : {trouble_of([&] { atomic_write(disk.path / "summary.json", "x"); }),
                                   trouble_of([&] { make_folder(disk.path / "frames"); }),
                                   trouble_of([&] { create_results(disk.path / "results.h5", ""); })}) {
     CAPTURE(line);

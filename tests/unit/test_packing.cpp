@@ -9,10 +9,10 @@
 #include <numbers>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/packing.hpp"
-#include "core/packing_body.hpp"
-#include "core/packing_sizes.hpp"
+#include "core/base/error.hpp"
+#include "core/packing/packing.hpp"
+#include "core/packing/region.hpp"
+#include "core/packing/sizes.hpp"
 
 using namespace breccia;
 
@@ -373,6 +373,6 @@ TEST_CASE("packing: sieves cut above their fines keep what passes the others, co
   // one class: m/ln 2 (6/pi) (d0^-3 - d1^-3)/3 spheres in a cubic metre of solid
   law.sieve_openings = {0.004, 0.008};
   law.sieve_passing = {0, 1};
-  CHECK(packing::spheres_per_volume(law, Space::solid) ==
+  CHECK(packing::spheres_per_volume(law, Space::three_d) ==
         doctest::Approx(2 / std::numbers::pi / std::log(2.0) * (1 / 64e-9 - 1 / 512e-9)).epsilon(1e-12));
 }

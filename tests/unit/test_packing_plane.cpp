@@ -9,11 +9,11 @@
 #include <numbers>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/packing.hpp"
-#include "core/packing_body.hpp"
-#include "core/packing_genesis.hpp"
-#include "core/packing_sizes.hpp"
+#include "core/base/error.hpp"
+#include "core/packing/genesis.hpp"
+#include "core/packing/packing.hpp"
+#include "core/packing/region.hpp"
+#include "core/packing/sizes.hpp"
 
 using namespace breccia;
 
@@ -25,7 +25,7 @@ const Body circle{Shape::disc, 0.05, 0, 0};
 /// Radii as Fakhimi & Villegas: 0.44 to 0.58, uniform.
 PackRequest request(std::size_t discs, double genesis_pressure = 0, std::uint64_t seed = 1) {
   PackRequest r;
-  r.spheres = discs, r.seed = seed, r.space = Space::plane;
+  r.spheres = discs, r.seed = seed, r.space = Space::two_d;
   r.sizes.kind = SizeDistribution::Kind::uniform, r.sizes.spread = 0.07 / 0.51;
   r.genesis_pressure = genesis_pressure;
   r.porosity = genesis_pressure > 0 ? 0.26 : 0.11;
@@ -84,7 +84,7 @@ double unbalance(const Body& body, const Specimen& s) {
   std::size_t contacts = 0;
   for (std::size_t i = 0; i < f.size(); ++i) {
     const auto& a = s.spheres[i];
-    packing::for_each_wall({body, Space::plane}, a.centre, [&](double distance, const Vec3& inward) {
+    packing::for_each_wall({body, Space::two_d}, a.centre, [&](double distance, const Vec3& inward) {
       f[i] += std::max(0.0, a.radius - distance) * inward;
     });
     for (std::size_t j = i + 1; j < f.size(); ++j) {
@@ -223,7 +223,7 @@ TEST_CASE("discs: mean stress of the contacts is the wall pressure [virial]") {
   double sum = 0;
   for (std::size_t i = 0; i < s.spheres.size(); ++i) {
     const auto& a = s.spheres[i];
-    packing::for_each_wall({rectangle, Space::plane}, a.centre,
+    packing::for_each_wall({rectangle, Space::two_d}, a.centre,
                            [&](double d, const Vec3&) { sum += std::max(0.0, a.radius - d) * d; });
     for (std::size_t j = i + 1; j < s.spheres.size(); ++j) {
       const double l = norm(s.spheres[j].centre - a.centre);
@@ -316,7 +316,7 @@ TEST_CASE("discs: sieves: mass goes with the square of the diameter") {
   law.sieve_openings = {0.002, 0.004, 0.008};
   law.sieve_passing = {0, 0.4, 1};
   Random random(3);
-  const auto radii = packing::draw_radii(law, 4000, random, Space::plane);
+  const auto radii = packing::draw_radii(law, 4000, random, Space::two_d);
   const auto passing = [&](double opening) {
     double below = 0, all = 0;
     for (const double each : radii) all += each * each, below += 2 * each <= opening ? each * each : 0;
@@ -351,6 +351,6 @@ TEST_CASE("discs: bad requests are refused in one line") {
   for (const double p : {-0.01, 0.13, std::nan("")})
     CHECK(has(refusal(rectangle, request(100, p)), "must be from 0 to 0.12"));
   PackRequest spheres = request(100, 0.04);
-  spheres.space = Space::solid;
+  spheres.space = Space::three_d;
   CHECK(has(refusal({Shape::box, 0.1, 0.1, 0.1}, spheres), "in the plane"));
 }

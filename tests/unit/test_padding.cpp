@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/world.hpp"
+#include "core/world/world.hpp"
 
 using namespace breccia;
 

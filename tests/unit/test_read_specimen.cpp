@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "core/error.hpp"
-#include "io/read_specimen.hpp"
+#include "core/base/error.hpp"
+#include "io/specimens/read_specimen.hpp"
 #include "scratch_folder.hpp"
 
 using namespace breccia;
@@ -210,7 +210,7 @@ TEST_CASE("specimen/check: centres in one place and centres outside are refused 
 
 TEST_CASE("specimen/place: in the plane the axis turns to z and the flat coordinate to y = 0") {
   const auto placed = [](const Vec3& a, const Vec3& b, char axis, std::optional<Vec3> centre = {}) {
-    const Specimen s = place_specimen(two(a, b), axis, centre, Space::plane);
+    const Specimen s = place_specimen(two(a, b), axis, centre, Space::two_d);
     return std::pair{s.spheres[0].centre, s.spheres[1].centre};
   };
   const std::pair wanted{Vec3{-1, 0, -2}, Vec3{1, 0, 2}};
@@ -230,12 +230,12 @@ TEST_CASE("specimen/place: in the plane the axis turns to z and the flat coordin
          placed({-1, -2, 7}, {1, 2, 7}, 'z');
        }),
        "s.csv:3: a 3-D mesh in a 2-D scene: along x");
-  CHECK_NOTHROW(place_specimen({}, 'z', {}, Space::plane));  // the check for no sphere at all comes later
+  CHECK_NOTHROW(place_specimen({}, 'z', {}, Space::two_d));  // the check for no sphere at all comes later
 }
 
 TEST_CASE("specimen/check: centres outside a rectangle or a circle in the plane") {
   const auto complaint = [](const Vec3& b, const Body& body) {
-    return complaint_of([&] { check_specimen(two({0, 0, 0}, b), body, Space::plane); });
+    return complaint_of([&] { check_specimen(two({0, 0, 0}, b), body, Space::two_d); });
   };
   const Body box{Shape::box, 0.1, 0, 0.2}, disc{Shape::disc, 0.1, 0, 0.1};
   CHECK(complaint({0.0519, 0, 0.1019}, box) == "accepted");
@@ -269,8 +269,8 @@ TEST_CASE("specimen/write: a specimen reads back bit for bit") {
     }
   }
   CHECK(!std::filesystem::exists(folder.path / "s.csv.part"));
-  CHECK_THROWS_AS(write_specimen_csv(folder.path / "s.csv" / "below.csv", s), FileTrouble);
-  CHECK_THROWS_AS(write_specimen_csv(folder.path / "none" / "s.csv", s), FileTrouble);
+  CHECK_THROWS_AS(write_specimen_csv(folder.path / "s.csv" / "below.csv", s), WriteError);
+  CHECK_THROWS_AS(write_specimen_csv(folder.path / "none" / "s.csv", s), WriteError);
 }
 
 TEST_CASE("specimen/csv: a million rows are read, placed and checked in a few seconds") {

@@ -1,7 +1,7 @@
 // Rows of a curve: means over steps, merged in pairs when they become many.
 #include <doctest/doctest.h>
 
-#include "core/recorder.hpp"
+#include "core/loading/recorder.hpp"
 
 using namespace breccia;
 

@@ -1,5 +1,4 @@
-// The reference solver against closed forms of MODEL.md sections 3, 4, 6 and 7: nothing here calls what it
-// checks.
+// The reference solver against closed forms of docs/model.md: nothing here calls what it checks.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "core/parallel.hpp"
-#include "core/scatter_plan.hpp"
+#include "core/base/threads.hpp"
+#include "core/ranks/scatter_plan.hpp"
 
 using namespace breccia;
 
@@ -55,8 +55,8 @@ Network network(std::size_t particles, std::size_t bonds, const Features& featur
 /// What a pass does with its range, in blocks as the bond pass makes them.
 void add_range(const Network& n, const Scatter& to, std::size_t first, std::size_t last) {
   while (first < last) {
-    const std::size_t count = std::min(last - first, LoadBlock::capacity);
-    LoadBlock block;
+    const std::size_t count = std::min(last - first, ForceBuffer::capacity);
+    ForceBuffer block;
     for (std::size_t k = 0; k < count; ++k) {
       block.load[k] = {n.force[first + k], n.moment[first + k]};
     }

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "core/space_curve.hpp"
+#include "core/geometry/space_curve.hpp"
 
 using namespace breccia;
 

@@ -1,7 +1,7 @@
 // The fingerprint of a state sees every saved bit and nothing else.
 #include <doctest/doctest.h>
 
-#include "core/state_hash.hpp"
+#include "core/tables/state_hash.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

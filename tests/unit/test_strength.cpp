@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/strength.hpp"
+#include "core/loading/strength.hpp"
 
 using namespace breccia;
 
@@ -47,8 +47,7 @@ std::vector<double> mismatch(const std::vector<CurveRow>& rows) {
 
 }  // namespace
 
-TEST_CASE(
-    "strength: peak, moduli, Poisson's ratio of a curve of two slopes [DESIGN summary.json, rel 1e-9]") {
+TEST_CASE("strength: peak, moduli, Poisson's ratio of a curve of two slopes [(B82), rel 1e-9]") {
   const auto rows = curve(0.003);
   const auto f = read_curve(rows, mismatch(rows));
   CHECK(f.peak_deviator == doctest::Approx(40e6).epsilon(1e-3));  // rows are 3e-6 of strain apart

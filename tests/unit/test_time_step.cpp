@@ -4,10 +4,10 @@
 
 #include <numeric>
 
-#include "core/elastic_network.hpp"
-#include "core/error.hpp"
-#include "core/largest_eigenvalue.hpp"
-#include "core/time_step.hpp"
+#include "core/base/error.hpp"
+#include "core/base/largest_eigenvalue.hpp"
+#include "core/elastic/critical_step.hpp"
+#include "core/elastic/elastic_network.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -104,7 +104,7 @@ TEST_CASE("time step: undamped chain dt = 2/omega_max, omega_max = 2 sqrt(k/m) c
   CHECK(std::abs(exact_time_step(scene_of(chain(60, elastic(0, 0)))) / fibre - 1) < 1e-3);
 }
 
-TEST_CASE("time step: damped pair and chain under each scheme, lambda(dt) = 1/(1 + alpha) [MODEL 8, 1e-6]") {
+TEST_CASE("time step: damped pair and chain under each scheme, lambda(dt) = 1/(1 + alpha) [(B41), 1e-6]") {
   for (const DampingScheme scheme : schemes)
     for (const std::size_t n : {2, 3, 12})
       for (const double xi : {0.1, 0.9})
@@ -135,7 +135,7 @@ TEST_CASE("time step: rolling pair, k_s on slip and both rotations, k_s (2/m + 2
   check_step(w, 1 / std::sqrt(2.0 * w.bonds.stiffness[0] * 7 / w.particles.mass[0] / 4));
 }
 
-TEST_CASE("time step: a light stiff pair apart from 400 others decides [MODEL 8, 1e-6]") {
+TEST_CASE("time step: a light stiff pair apart from 400 others decides [(B43), 1e-6]") {
   std::vector<Ball> balls;
   for (std::size_t k = 0; k < 400; ++k) balls.push_back({k + 1, 0.01, {0, 0, 0.02 * double(k)}});
   balls.push_back({401, 0.0005, {1, 0, 0}});
@@ -181,11 +181,11 @@ TEST_CASE("time step: a packing's estimate lies within 2.5 % below the converged
       const double exact = exact_time_step(scene_of(w));
       CHECK(w.critical_dt < exact);
       CHECK(w.critical_dt > 0.975 * exact);
-      CHECK(look_at_step(scene_of(w), exact).number == doctest::Approx(1).epsilon(0.02));
+      CHECK(estimate_step(scene_of(w), exact).number == doctest::Approx(1).epsilon(0.02));
       for (const double beyond : {1.02, 1.15}) {
-        const StepLook look = look_at_step(scene_of(w), beyond * exact);
-        CHECK(look_at_step(scene_of(w), beyond * exact, 1.0).critical == look.critical);  // more than enough
-        const StepLook enough = look_at_step(scene_of(w), beyond * exact, 1.5);
+        const StepEstimate look = estimate_step(scene_of(w), beyond * exact);
+        CHECK(estimate_step(scene_of(w), beyond * exact, 1.0).critical == look.critical);  // more than enough
+        const StepEstimate enough = estimate_step(scene_of(w), beyond * exact, 1.5);
         CHECK(enough.number == look.number);
         CHECK(enough.critical == beyond * exact);
         CHECK(look.critical < exact * 1.003);
@@ -261,8 +261,8 @@ TEST_CASE("time step: small spheres that come near lower it, dashpots follow, an
     }
     CHECK(touched);
     CHECK(w.dt < 0.6 * first);
-    CHECK(w.step_watch.looks >= 1);
-    CHECK(w.step_watch.first_dt == first);
+    CHECK(w.step_monitor.looks >= 1);
+    CHECK(w.step_monitor.first_dt == first);
     CHECK(most < 1.01 * 0.5 * 4 * w.particles.mass[2] * 100);  // nobody is faster than they came
     const double c = bond_dashpot(w.dashpots, w.particles, w.bonds, 0, w.dt);
     CHECK(w.bonds.damping[0] == c);
@@ -277,14 +277,14 @@ TEST_CASE("time step: what contacts add to the stability number stays below its 
   WorldOptions o = scene::options(p);
   const Assembly a = assemble(scene::small_packing(200), scene::small_cylinder(), {}, o.features, 1);
   World w = make_world(a, scene::material_of(p), scene::factor(p), o);
-  const double without = look_at_step(scene_of(w), w.dt).number;
-  w.search.skin *= 5;  // many at once
-  renew_contacts(w.search, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, o.features, false,
+  const double without = estimate_step(scene_of(w), w.dt).number;
+  w.neighbour_list.skin *= 5;  // many at once
+  renew_contacts(w.neighbour_list, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, o.features, false,
                  1);
   REQUIRE(w.contacts.size > 20);
   std::vector<std::size_t> all(w.contacts.size);
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const double with = look_at_step(scene_of(w), w.dt).number,
+  const double with = estimate_step(scene_of(w), w.dt).number,
                bound = stability_number_bound(scene_of(w), all, w.dt);
   CHECK(with >= without * (1 - 1e-9));
   CHECK(with <= (without + bound) * 1.02);

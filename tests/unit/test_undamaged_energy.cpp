@@ -1,8 +1,8 @@
 // The energy of bonds without damage, in registers of every width, held against the sum bond by bond.
 #include <doctest/doctest.h>
 
-#include "core/energy_ledger.hpp"
-#include "kernels/bond_energy.hpp"
+#include "core/world/energy_ledger.hpp"
+#include "kernels/loops/bond_energy.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -4,9 +4,9 @@
 #include <random>
 #include <string>
 
-#include "core/error.hpp"
-#include "io/nearest.hpp"
-#include "io/units.hpp"
+#include "core/base/error.hpp"
+#include "io/text/suggest.hpp"
+#include "io/text/units.hpp"
 
 using namespace breccia;
 

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <set>
 
-#include "core/error.hpp"
-#include "core/workprecision/analysis.hpp"
-#include "core/workprecision/pareto.hpp"
-#include "io/workprecision_journal.hpp"
-#include "io/workprecision_runs.hpp"
+#include "core/base/error.hpp"
+#include "core/studies/workprecision/analysis.hpp"
+#include "core/studies/workprecision/pareto.hpp"
+#include "drivers/studies/workprecision/journal.hpp"
+#include "drivers/studies/workprecision/runs.hpp"
 #include "scratch_folder.hpp"
 
 using namespace breccia;

@@ -1,0 +1,63 @@
+// A specimen made ready: particles in their order, bonds between them, the layers that platens hold, the
+// skin. It is made once; every run of a series starts from a copy.
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "core/base/scene_options.hpp"
+#include "core/geometry/specimen.hpp"
+#include "core/tables/bond_table.hpp"
+#include "core/tables/particle_table.hpp"
+
+namespace breccia {
+
+struct BondingRule {
+  double range = 0.10;                 ///< beta: bonded where |x_j - x_i| <= (1 + beta)(r_i + r_j)
+  std::optional<double> coordination;  ///< instead: beta such that particles have this many bonds on average
+  AreaRule area = AreaRule::minimum;
+  std::optional<AreaRule> strength_area;  ///< of the strengths, where it is another one
+  Space space = Space::three_d;
+  Support grip = Support::ends;
+};
+
+struct Assembly {
+  Body body;
+  Space space = Space::three_d;
+  Support grip = Support::ends;
+  bool rotation = true;  ///< particles turn
+  ParticleTable particles;
+  BondTable bonds;            ///< areas with alpha = 1; stiffness and damping not yet set
+  std::size_t first_top = 0;  ///< rows [particles.free, first_top) lower layer, [first_top, size) upper layer
+  std::vector<Row> skin;      ///< particles at the mantle, rising rows
+  double mean_radius = 0;     ///< m
+  double layer = 0;           ///< m, thickness of the held layers or strips
+  double range = 0;           ///< beta that was used
+  double coordination = 0;    ///< bonds per particle, both ends counted
+  std::size_t dropped_bonds = 0;  ///< in range, but without an area (no common Voronoi face)
+  std::size_t short_bonds = 0;    ///< nested spheres whose strains use a floor for their length
+
+  double section() const;  ///< m^2, nominal, across the axis (of a disc on edge: its face)
+  double mantle() const;   ///< m^2, nominal
+  double volume() const { return section() * body.height; }
+  double length() const;        ///< m, between the ends that are pressed
+  double load_section() const;  ///< m^2, by which a load becomes the stress that the test reports
+};
+
+/// Length of a bond that stiffness and strains refer to: the rest length, or 0.2 (r_i + r_j) for nested
+/// spheres. (B8)
+inline double strain_length_of(double rest_length, double radius_sum) {
+  return std::max(rest_length, 0.2 * radius_sum);
+}
+
+/// True where a sphere reaches the nominal mantle to within 0.3 mean radii. (B63)
+bool at_mantle(const Body& body, Space space, const Vec3& centre, double radius, double mean_radius);
+
+/// @param specimen  loaded along z, middle at the origin
+/// @param features  those that run; columns are made for them
+/// @param rotation  whether particles turn
+/// @throws BadInput when nothing is bonded, or no sphere lies in an end layer
+Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule& rule,
+                  const Features& features, int threads, bool rotation = true);
+
+}  // namespace breccia

@@ -1,0 +1,32 @@
+#include "core/bonding/mantle_area.hpp"
+
+#include "core/base/error.hpp"
+#include "core/geometry/body_walls.hpp"
+#include "core/geometry/voronoi_cells.hpp"
+
+namespace breccia {
+
+std::vector<double> mantle_areas(const ParticleTable& particles, std::span<const Row> skin, const Body& body,
+                                 Space space, int threads, char axis) {
+  std::vector<Vec3> position;
+  std::vector<double> radius;
+  for (const Row row : skin) {
+    if (row >= particles.size) fail<BadInput>("skin: row {} of {} particles", row, particles.size);
+    position.push_back(particles.reference_position[row]);
+    radius.push_back(particles.radius[row]);
+  }
+  if (skin.empty())
+    fail<BadInput>(
+        "specimen: no particle at the mantle to share it; check specimen.diameter and specimen.centre");
+  const VoronoiCells cells = voronoi_cells(position, radius, body, space, threads, axis);
+  std::vector<double> area(skin.size());
+  double sum = 0.0;
+  for (const WallFace& f : cells.wall_faces)
+    if (f.mantle) area[f.row] += f.area, sum += f.area;
+  // from the prism that stands for a round mantle (or one moved out) to the nominal one: 1 + 1e-5
+  const double to_nominal = mantle_of(body, space, axis) / sum;
+  for (double& a : area) a *= to_nominal;
+  return area;
+}
+
+}  // namespace breccia

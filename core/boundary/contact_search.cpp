@@ -1,0 +1,150 @@
+#include "core/boundary/contact_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/base/threads.hpp"
+#include "core/geometry/cell_list.hpp"
+
+namespace breccia {
+namespace {
+
+bool are_bonded(const NeighbourList& search, Row a, Row b) {
+  return std::binary_search(search.partners.begin() + search.first_partner[a],
+                            search.partners.begin() + search.first_partner[a + 1], b);
+}
+
+/// Largest distance that a particle has moved against a specimen that is stretched evenly along its axis, and
+/// the largest speed: what is uniform brings no two neighbours together by more than strain times their
+/// distance.
+struct Moved {
+  double distance2 = 0, speed2 = 0;
+  Moved& operator+=(const Moved& o) {
+    distance2 = std::max(distance2, o.distance2);
+    speed2 = std::max(speed2, o.speed2);
+    return *this;
+  }
+};
+
+struct EvenStretch {
+  double top = 0, square = 0;
+  EvenStretch& operator+=(const EvenStretch& o) {
+    top += o.top, square += o.square;
+    return *this;
+  }
+};
+
+}  // namespace
+
+NeighbourList make_neighbour_list(const Assembly& a, bool enabled, double skin) {
+  NeighbourList s;
+  s.enabled = enabled;
+  s.skin = skin;
+  const auto& b = a.bonds;
+  std::vector<std::pair<Row, Row>> ends;
+  ends.reserve(2 * b.size);
+  for (std::size_t k = 0; k < b.size; ++k) {
+    ends.emplace_back(b.row_lo[k], b.row_hi[k]);
+    ends.emplace_back(b.row_hi[k], b.row_lo[k]);
+  }
+  std::sort(ends.begin(), ends.end());
+  s.first_partner.assign(a.particles.size + 1, 0);
+  for (const auto& [row, partner] : ends) {
+    ++s.first_partner[row + 1];
+    s.partners.push_back(partner);
+  }
+  for (std::size_t k = 0; k < a.particles.size; ++k) s.first_partner[k + 1] += s.first_partner[k];
+  if (!enabled) return s;
+
+  // until the nearest unbonded pair can have met, there is nothing to search for
+  const auto& r = a.particles.radius;
+  s.position = a.particles.position.copy();
+  s.slack = s.skin;
+  s.reach = 2.0 * *std::max_element(r.begin(), r.end()) + s.skin;
+  for (const auto& [i, j] : near_pairs(s.position, r, 0.0, s.skin, 1))
+    if (!are_bonded(s, i, j)) s.slack = std::min(s.slack, norm(s.position[j] - s.position[i]) - r[i] - r[j]);
+  return s;
+}
+
+bool rebuild_is_due(NeighbourList& s, const ParticleTable& p, const Partition& partition, std::uint64_t step,
+                   double dt, int threads) {
+  if (!s.enabled || step < s.next_check) return false;
+  s.next_check = step + static_cast<std::uint64_t>(s.check_every);
+
+  std::vector<EvenStretch> sums;  // along the axis: least squares of u_z over z
+  const EvenStretch even = sum_particles(partition, threads, sums, [&](std::size_t row) {
+    const double z = s.position[row].z;
+    return EvenStretch{z * (p.position[row].z - z), z * z};
+  });
+  const double stretch = even.square > 0.0 ? even.top / even.square : 0.0;
+  std::vector<Moved> blocks;
+  const Moved most = sum_particles(partition, threads, blocks, [&](std::size_t row) {
+    Vec3 u = p.position[row] - s.position[row];
+    u.z -= stretch * s.position[row].z;
+    return Moved{dot(u, u), dot(p.velocity[row], p.velocity[row])};
+  });
+  const double used = 2.0 * std::sqrt(most.distance2) + std::abs(stretch) * s.reach;
+  // what they may still move before the next check counts as used
+  const double per_step = 2.0 * 1.5 * dt * std::sqrt(most.speed2), ahead = s.check_every * per_step;
+  // slack <= 0: pairs that overlap unbonded are in contact from the start
+  const bool due = s.slack <= 0.0 || used + ahead > s.slack;
+  // particles so fast that a new list does not last until then are looked at sooner
+  if (due && ahead > s.skin)
+    s.next_check = step + std::max<std::uint64_t>(1, static_cast<std::uint64_t>(s.skin / per_step));
+  return due;
+}
+
+void renew_contacts(NeighbourList& s, ContactTable& contacts, const ParticleTable& p,
+                    const ContactMaterial& material, const Features& features, bool ledger, int threads) {
+  using std::numbers::pi;
+  const bool first_list = !s.awake;
+  s.awake = true;
+  s.slack = s.skin;
+  ++s.rebuilds;
+  s.position = p.position.copy();
+  std::vector<RowPair> pairs = near_pairs(p.position, p.radius, 0.0, s.skin, threads);
+  std::erase_if(pairs, [&](const RowPair& pair) { return are_bonded(s, pair.a, pair.b); });
+  std::sort(pairs.begin(), pairs.end(),
+            [](const RowPair& x, const RowPair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
+
+  const ContactTable before = std::move(contacts);
+  std::vector<std::pair<std::pair<Row, Row>, std::size_t>> known;  // pairs with a history worth keeping
+  for (std::size_t k = 0; k < before.size; ++k) {
+    const double touch = p.radius[before.row_lo[k]] + p.radius[before.row_hi[k]];
+    if (before.free_length[k] != touch || !(before.shear_force[k] == Vec3{}) ||
+        (ledger && before.viscous_force[k] != 0.0))
+      known.push_back({std::minmax(before.row_lo[k], before.row_hi[k]), k});
+  }
+  std::sort(known.begin(), known.end());
+
+  contacts = ContactTable{};
+  contacts.resize(pairs.size(), features);
+  if (ledger) contacts.viscous_force.assign(contacts.padded, 0.0);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [lo, hi] = p.gid[pairs[k].a] < p.gid[pairs[k].b] ? std::pair(pairs[k].a, pairs[k].b)
+                                                                : std::pair(pairs[k].b, pairs[k].a);
+    const double touch = p.radius[lo] + p.radius[hi], smaller = std::min(p.radius[lo], p.radius[hi]);
+    const double distance = norm(p.position[hi] - p.position[lo]);
+    contacts.gid_lo[k] = p.gid[lo];
+    contacts.gid_hi[k] = p.gid[hi];
+    contacts.row_lo[k] = lo;
+    contacts.row_hi[k] = hi;
+    // (B30)
+    contacts.stiffness[k] = material.young * material.alpha *
+                            (material.space == Space::two_d ? 2.0 * smaller : pi * smaller * smaller) / touch;
+    if (features.rotation) contacts.arm_offset[k] = contact_arm_offset(p.radius[lo], p.radius[hi]);
+    // pairs that overlap unbonded from the start are free of stress where they are
+    contacts.free_length[k] = first_list ? std::min(touch, distance) : touch;  // (B31)
+    const std::pair<Row, Row> key = std::minmax(lo, hi);
+    const auto found = std::lower_bound(known.begin(), known.end(), std::pair(key, std::size_t{0}));
+    if (found != known.end() && found->first == key) {
+      contacts.free_length[k] = before.free_length[found->second];
+      contacts.shear_force[k] = before.shear_force[found->second];
+      if (ledger) contacts.viscous_force[k] = before.viscous_force[found->second];
+    }
+  }
+}
+
+}  // namespace breccia

@@ -1,0 +1,69 @@
+// What acts on a specimen from outside: two platens, and what surrounds its mantle.
+// docs/model.md, "Laboratory tests".
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/bonding/assembly.hpp"
+#include "core/ranks/partition.hpp"
+
+namespace breccia {
+
+/// The lower and the upper platen: the two bodies of held particles (layers, strips, halves of a shear box).
+struct Platens {
+  bool rough = true;               ///< lateral motion prescribed too
+  bool servo = false;              ///< driven along z by a pressure instead of at a given speed
+  double section = 0;              ///< m^2, by which reactions become stresses
+  double pressure = 0;             ///< Pa, wanted of a servo
+  std::array<double, 2> mass{};    ///< kg, of the layers: the rigid bodies that a servo moves
+  double servo_part = 1;           ///< of that mass, which a servo has to move
+  double dashpot = 0;              ///< N s/m, holds back a servo
+  std::array<Vec3, 2> velocity{};  ///< m/s, half a step before position
+  std::array<Vec3, 2> travel{};    ///< m, since the start
+  std::array<Vec3, 2> force{};     ///< N, of the specimen on each
+  double work = 0;                 ///< J, that both have done on the specimen
+};
+
+/// Pa, positive in compression, mean of both ends. (B74)
+inline double axial_stress(const Platens& p) { return 0.5 * (p.force[1].z - p.force[0].z) / p.section; }
+/// Pa, top against bottom: what is missing to balance. (B74)
+inline double mismatch(const Platens& p) { return std::abs(p.force[1].z + p.force[0].z) / p.section; }
+/// Pa, with which the specimen holds back the upper body against the lower one along x. (B80)
+inline double shear_stress(const Platens& p) { return 0.5 * (p.force[0].x - p.force[1].x) / p.section; }
+/// m, towards each other.
+inline double approach(const Platens& p) { return p.travel[0].z - p.travel[1].z; }
+/// m, of the upper against the lower along x.
+inline double shear_travel(const Platens& p) { return p.travel[1].x - p.travel[0].x; }
+
+/// @param particles      with their masses
+/// @param young_modulus  Pa, of the specimen
+Platens make_platens(const Assembly& assembly, const ParticleTable& particles, bool rough,
+                     double young_modulus);
+
+/// Reactions of this step, and for a servo the velocity that follows from them.
+void drive_platens(Platens& platens, const ParticleTable& particles, const Partition& partition,
+                   std::size_t first_top, double dt);
+
+/// What surrounds the mantle: a fluid under pressure, forces p w on each particle of the skin with weights w
+/// that add up to the nominal surface; or a rigid wall that lets it slide along the axis only.
+struct Confinement {
+  bool rigid = false;   ///< x and y of the skin are fixed
+  bool plane = false;   ///< two dimensions: the skin is two sides, normal to x
+  double pressure = 0;  ///< Pa, now; of a rigid wall the mean reaction
+  double surface = 0;   ///< m^2, nominal
+  std::vector<Row> rows;
+  std::vector<double> weight;  ///< m^2
+  std::vector<Vec3> force;     ///< N, of this step
+};
+
+/// @param rigid  a wall instead of a fluid
+Confinement make_confinement(const Assembly& assembly, SkinWeights weights, bool rigid);
+
+/// Adds the pressure forces; their net force and moment are removed by a least-squares correction.
+void apply_confinement(Confinement& confinement, ParticleTable& particles, const Partition& partition);
+
+/// A rigid wall takes up the lateral forces of the skin, all of them summed: called when they are complete.
+/// (B73)
+void restrain_laterally(Confinement& confinement, ParticleTable& particles, const Partition& partition);
+
+}  // namespace breccia

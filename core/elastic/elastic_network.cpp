@@ -1,0 +1,220 @@
+#include "core/elastic/elastic_network.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/base/threads.hpp"
+#include "core/elastic/gauges.hpp"
+
+namespace breccia {
+namespace {
+
+template <class Real>
+Vec<Real> three(const VectorOf<Real>& v, std::size_t at) {
+  const auto k = static_cast<Eigen::Index>(at);
+  return {v[k], v[k + 1], v[k + 2]};
+}
+template <class Real>
+void put(VectorOf<Real>& v, std::size_t at, const Vec<Real>& f) {
+  const auto k = static_cast<Eigen::Index>(at);
+  v[k] = f.x, v[k + 1] = f.y, v[k + 2] = f.z;
+}
+
+template <class Real>
+SpringLoad<Real> load_of(const Network<Real>& net, std::size_t k, const VectorOf<Real>& u) {
+  const auto& [lo, hi, k_n, k_s] = net.springs[k];
+  const auto& [normal, arm_ratio] = net.branches[k];
+  const std::size_t at_lo = 6 * std::size_t{lo}, at_hi = 6 * std::size_t{hi};
+  const Vec<Real> turn =
+      arm_ratio * (net.radius[lo] * three<Real>(u, at_lo + 3) + net.radius[hi] * three<Real>(u, at_hi + 3));
+  const Vec<Real> relative = three<Real>(u, at_hi) - three<Real>(u, at_lo) - cross(turn, normal);
+  const Vec<Real> pull = (k_n - k_s) * dot(relative, normal) * normal + k_s * relative;
+  return {pull, arm_ratio * cross(normal, pull)};
+}
+
+}  // namespace
+
+template <class Real>
+Network<Real> elastic_network(const ParticleTable& p, const BondTable& b, const ContactTable& c,
+                              bool rotation, int threads,
+                              const std::function<SpringConstants(std::size_t)>& constants) {
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  Network<Real> net;
+  net.particles = p.size;
+  net.threads = threads;
+  for (const double radius : p.radius) net.radius.push_back(real(radius));
+  net.springs.resize(b.size + c.size);
+  net.branches.resize(net.springs.size());
+  net.first_entry.assign(net.particles + 1, 0);
+  for (std::size_t k = 0; k < net.springs.size(); ++k) {
+    const bool bond = k < b.size;
+    const Row lo = bond ? b.row_lo[k] : c.row_lo[k - b.size], hi = bond ? b.row_hi[k] : c.row_hi[k - b.size];
+    const Vec3 l = p.position[hi] - p.position[lo];
+    const double distance = norm(l), length = bond ? b.rest_length[k] : distance;
+    const auto [normal, shear] = constants(k);
+    const double arm_ratio = rotation ? length / (p.radius[lo] + p.radius[hi]) : 0.0;
+    net.springs[k] = {lo, hi, real(normal), real(shear)};
+    net.branches[k] = {{real(l.x / distance), real(l.y / distance), real(l.z / distance)}, real(arm_ratio)};
+    ++net.first_entry[lo + 1];
+    ++net.first_entry[hi + 1];
+  }
+  for (std::size_t k = 0; k < net.particles; ++k) net.first_entry[k + 1] += net.first_entry[k];
+  net.entries.resize(2 * net.springs.size());
+  std::vector<std::uint32_t> next(net.first_entry.begin(), net.first_entry.end() - 1);
+  for (std::size_t k = 0; k < net.springs.size(); ++k) {
+    net.entries[next[net.springs[k].lo]++] = static_cast<std::uint32_t>(k << 1);
+    net.entries[next[net.springs[k].hi]++] = static_cast<std::uint32_t>(k << 1 | 1u);
+  }
+  return net;
+}
+
+template <class Real>
+void set_constants(Network<Real>& net, const std::function<SpringConstants(std::size_t)>& constants) {
+  for (std::size_t k = 0; k < net.springs.size(); ++k) {
+    const auto [normal, shear] = constants(k);
+    net.springs[k].k_n = static_cast<Real>(normal);
+    net.springs[k].k_s = static_cast<Real>(shear);
+  }
+}
+
+template <class Real>
+void apply_stiffness(const Network<Real>& net, const VectorOf<Real>& u, std::vector<SpringLoad<Real>>& loads,
+                     VectorOf<Real>& forces) {
+  loads.resize(net.springs.size());
+  for_rows(net.springs.size(), net.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) loads[k] = load_of(net, k, u);
+  });
+  for_rows(net.particles, net.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      Vec<Real> force, moment;
+      for (std::uint32_t e = net.first_entry[p]; e < net.first_entry[p + 1]; ++e) {
+        const SpringLoad<Real>& load = loads[net.entries[e] >> 1];
+        // K u is what must be applied: minus the spring's pull on the end
+        force += (net.entries[e] & 1u ? Real(1) : Real(-1)) * load.pull;
+        moment += load.moment;
+      }
+      put<Real>(forces, 6 * p, force);
+      put<Real>(forces, 6 * p + 3, -net.radius[p] * moment);
+    }
+  });
+}
+
+#define BRECCIA_NETWORK_OF(Real)                                                                             \
+  template Network<Real> elastic_network(const ParticleTable&, const BondTable&, const ContactTable&, bool,  \
+                                         int, const std::function<SpringConstants(std::size_t)>&);           \
+  template void set_constants(Network<Real>&, const std::function<SpringConstants(std::size_t)>&);           \
+  template void apply_stiffness(const Network<Real>&, const VectorOf<Real>&, std::vector<SpringLoad<Real>>&, \
+                                VectorOf<Real>&);
+BRECCIA_NETWORK_OF(double)
+BRECCIA_NETWORK_OF(float)
+
+namespace {
+
+/// Diagonal of K, for the preconditioner.
+Eigen::VectorXd stiffness_diagonal(const ElasticNetwork& net) {
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * net.particles));
+  for (std::size_t spring = 0; spring < net.springs.size(); ++spring) {
+    const auto& s = net.springs[spring];
+    const auto& [normal, arm_ratio] = net.branches[spring];
+    const Vec3 n2{normal.x * normal.x, normal.y * normal.y, normal.z * normal.z};
+    for (const bool hi : {false, true}) {
+      const auto at = static_cast<Eigen::Index>(6 * (hi ? s.hi : s.lo));
+      const double arm = arm_ratio * net.radius[hi ? s.hi : s.lo];
+      const double squares[3] = {n2.x, n2.y, n2.z};
+      for (int k = 0; k < 3; ++k) {
+        d[at + k] += s.k_n * squares[k] + s.k_s * (1.0 - squares[k]);
+        d[at + 3 + k] += s.k_s * arm * arm * (1.0 - squares[k]);
+      }
+    }
+  }
+  return d;
+}
+
+}  // namespace
+
+std::vector<double> bond_stiffness(const BondLaw& law, const ParticleTable& p, const BondTable& b) {
+  std::vector<double> k_n(b.size);
+  std::visit(
+      [&](const auto& l) {
+        for (std::size_t k = 0; k < b.size; ++k)
+          k_n[k] =
+              stiffness_of(l, b.area[k],
+                           strain_length_of(b.rest_length[k], p.radius[b.row_lo[k]] + p.radius[b.row_hi[k]]));
+      },
+      law);
+  return k_n;
+}
+
+ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, double shear_ratio, bool rough,
+                      int threads) {
+  const ParticleTable& p = a.particles;
+  const ElasticNetwork net = elastic_network(p, a.bonds, {}, a.rotation, threads, [&](std::size_t k) {
+    return SpringConstants{stiffness[k], shear_ratio * stiffness[k]};
+  });
+  const auto n = static_cast<Eigen::Index>(6 * net.particles);
+  Eigen::VectorXd inverse_diagonal = stiffness_diagonal(net);
+  inverse_diagonal = (inverse_diagonal.array() > 0.0).select(inverse_diagonal.cwiseInverse(), 0.0);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
+  const double push = 0.5e-4 * a.body.height;  // any size: the answer is linear
+  for (std::size_t row = a.particles.free; row < net.particles; ++row) {
+    const auto at = static_cast<Eigen::Index>(6 * row);
+    u[at + 2] = row < a.first_top ? push : -push;
+    inverse_diagonal[at + 2] = 0.0;  // prescribed: neither moved nor balanced
+    if (rough) inverse_diagonal[at] = inverse_diagonal[at + 1] = 0.0;
+  }
+  if (a.space == Space::two_d)
+    for (Eigen::Index at = 0; at < n; at += 6)
+      inverse_diagonal[at + 1] = inverse_diagonal[at + 3] = inverse_diagonal[at + 5] = 0.0;
+  // the affine field is a good first guess
+  for (std::size_t row = 0; row < a.particles.free; ++row)
+    u[static_cast<Eigen::Index>(6 * row + 2)] =
+        -2.0 * push / a.body.height * a.particles.reference_position[row].z;
+
+  // conjugate gradients on the free unknowns, preconditioned by the diagonal; a prescribed unknown has a zero
+  // there
+  const auto free = (inverse_diagonal.array() > 0.0).cast<double>().matrix().eval();
+  Eigen::VectorXd force(n), residual(n), direction(n), image(n);
+  std::vector<SpringLoad<double>> loads;
+  apply_stiffness(net, u, loads, force);
+  residual = -force.cwiseProduct(free);
+  Eigen::VectorXd z = residual.cwiseProduct(inverse_diagonal);
+  direction = z;
+  double rho = residual.dot(z);
+  const double start = force.cwiseAbs().maxCoeff();
+  ElasticResponse answer;
+  const long limit = 20000;
+  while (residual.cwiseAbs().maxCoeff() > 1e-7 * start && answer.iterations < limit) {
+    apply_stiffness(net, direction, loads, image);
+    const double step = rho / direction.dot(image);
+    u += step * direction;
+    residual -= step * image.cwiseProduct(free);
+    z = residual.cwiseProduct(inverse_diagonal);
+    const double next = residual.dot(z);
+    direction = z + (next / rho) * direction;
+    rho = next;
+    ++answer.iterations;
+  }
+  if (answer.iterations == limit)
+    fail<BadInput>("bonds.alpha: the elastic probe did not converge; give alpha a number or \"affine\"");
+
+  apply_stiffness(net, u, loads, force);
+  double reaction = 0.0;
+  for (std::size_t row = a.particles.free; row < net.particles; ++row)
+    reaction += (row < a.first_top ? 0.5 : -0.5) * force[static_cast<Eigen::Index>(6 * row + 2)];
+  const auto strain = [&](const Gauge& g) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < g.rows.size(); ++k)
+      sum += dot(g.weights[k], three<double>(u, 6 * std::size_t{g.rows[k]}));
+    return sum;
+  };
+  const double axial = strain(axial_gauge(a)), radial = strain(lateral_gauge(a));
+  answer.young_modulus = reaction / a.section() / axial;
+  answer.poisson_ratio = -radial / axial;
+  const double scale = *std::max_element(stiffness.begin(), stiffness.end()) / a.mean_radius;
+  if (!(answer.young_modulus > 1e-6 * scale))
+    fail<BadInput>("bonds.range: the bonds do not connect the two ends of the specimen; widen the range");
+  return answer;
+}
+
+}  // namespace breccia

@@ -1,0 +1,55 @@
+#include "core/elastic/gauges.hpp"
+
+#include <cmath>
+
+namespace breccia {
+
+Gauge axial_gauge(const Assembly& a) {
+  Gauge g;
+  const auto& x = a.particles.reference_position;
+  double mean = 0.0;
+  for (std::size_t row = 0; row < x.size(); ++row)
+    if (std::abs(x[row].z) < 0.25 * a.body.height) {
+      g.rows.push_back(static_cast<Row>(row));
+      mean += x[row].z;
+    }
+  mean /= static_cast<double>(g.rows.size());
+  double square = 0.0;
+  for (const Row row : g.rows) square += (x[row].z - mean) * (x[row].z - mean);
+  for (const Row row : g.rows) g.weights.push_back({0.0, 0.0, -(x[row].z - mean) / square});
+  return g;
+}
+
+Gauge lateral_gauge(const Assembly& a) {
+  Gauge g;
+  const auto& x = a.particles.reference_position;
+  const bool x_only = a.body.on_edge || a.space == Space::two_d;
+  Vec3 mean;
+  const auto add = [&](Row row) {
+    if (std::abs(x[row].z) >= 0.2 * a.length()) return;
+    g.rows.push_back(row);
+    mean += x[row];
+  };
+  if (a.body.on_edge)
+    for (Row row = 0; row < x.size(); ++row) add(row);
+  else
+    for (const Row row : a.skin) add(row);
+  if (g.rows.empty()) return g;
+  mean = (1.0 / static_cast<double>(g.rows.size())) * mean;
+  if (x_only) mean.y = 0.0;
+  const auto lever = [&](Row row) { return Vec3{x[row].x - mean.x, x_only ? 0.0 : x[row].y - mean.y, 0.0}; };
+  double square = 0.0;
+  for (const Row row : g.rows) square += dot(lever(row), lever(row));
+  for (const Row row : g.rows) g.weights.push_back((-1.0 / square) * lever(row));
+  return g;
+}
+
+double read_gauge(const Gauge& gauge, Strided<const Vec3> position, std::span<const Vec3> reference,
+                  const Partition& partition, int threads) {
+  std::vector<double> blocks;
+  return sum_listed(partition, gauge.rows, threads, blocks, [&](std::size_t k) {
+    return dot(gauge.weights[k], position[gauge.rows[k]] - reference[gauge.rows[k]]);
+  });
+}
+
+}  // namespace breccia

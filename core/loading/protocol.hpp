@@ -1,0 +1,102 @@
+// A laboratory test between two platens: hydrostatic stage where there is confinement, then loading at
+// constant speed and pressure. Compression, tension, direct shear, and the hydrostatic stage alone.
+// docs/model.md, "Laboratory tests".
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/loading/stability_checks.hpp"
+#include "core/loading/recorder.hpp"
+#include "core/world/world.hpp"
+
+namespace breccia {
+
+/// compression: platens towards each other. tension: apart. shear: the halves of a shear box along x, under
+/// `confinement` on its lid. hydrostatic: pressure alone, up to `confinement`.
+enum class Loading { compression, tension, shear, hydrostatic };
+
+struct LoadTest {
+  Loading loading = Loading::compression;
+  double confinement = 0;     ///< Pa
+  double platen_speed = 0.1;  ///< m/s, of each platen
+  double stop_strain = 0.02;  ///< platen travel over length since the end of stage 1
+  double stop_after_peak =
+      0.5;          ///< ends when the deviator has fallen by this fraction of its peak; 0 = never
+  int frames = 20;  ///< pictures of the state over the whole strain, and one at the end; 0 = none
+  std::vector<double> unload_at;  ///< platen strains at which the specimen is unloaded, then loaded again
+  double unload_to = 0.1;         ///< fraction of the deviator at which loading begins again
+};
+
+/// no_rest: the specimen did not come to rest under its confinement, so that nothing was loaded.
+enum class Stopped { strain, peak_drop, pressure, interrupted, no_rest };
+
+/// When a specimen was unloaded and loaded again, s.
+struct Cycle {
+  double unloaded = 0, reloaded = 0;
+};
+
+struct LoadResult {
+  Recorder record;  ///< rows of stage 2 (hydrostatic: of stage 1); strains from its start
+  std::vector<Cycle> cycles;
+  Stopped stopped = Stopped::strain;
+  std::uint64_t stage1_steps = 0;
+  double run_time = 0;  ///< s, wall, of both stages
+  std::vector<std::string> warnings;
+};
+
+/// Readings of gauges and platens when loading began.
+struct Datum {
+  double axial = 0, lateral = 0;   ///< strains
+  double approach = 0, shear = 0;  ///< m
+};
+
+/// Where the platens are going: on, back while the specimen is unloaded, on again.
+struct LoadPath {
+  double sense = 1;      ///< -1 while unloading
+  double turned_at = 0;  ///< platen strain at which the last unloading began
+  double load = 0;       ///< Pa, deviator there
+};
+
+enum class Stage : std::uint64_t { not_begun, pressing, loading };
+
+/// Where a test stands, between two rows of its curve: with the world and the result, all that it needs to go
+/// on.
+struct LoadState {
+  Stage stage = Stage::not_begun;
+  double stage_start = 0;  ///< s
+  double pressure = 0;     ///< Pa, of an evenly rising one
+  double speed = 0;        ///< m/s, of the platens
+  double peak = 0;         ///< Pa, so far
+  Datum zeros;
+  LoadPath direction;
+  std::size_t next_unloading = 0;  ///< in LoadTest::unload_at
+  std::size_t frames = 0;          ///< taken
+  std::size_t cracks_told = 0;
+  StabilityChecks checks;
+};
+
+/// What a program does between steps: none of it changes the state, but for columns made for output.
+struct LoadHooks {
+  std::function<bool()> interrupted;  ///< true ends the run with what there is
+  /// about ten times a second at most: stage (1, 2), fraction of it done, and the present row
+  std::function<void(int, double, const CurveRow&)> progress;
+  std::function<void(World&, std::size_t frame, const CurveRow&)> frame;  ///< called on every rank
+  std::function<void(std::span<const Crack>)> cracks;                     ///< new ones since the row before
+  std::function<bool()> checkpoint_due;  ///< asked between rows; an interrupted run makes one without asking
+  /// called on every rank, when its books have been brought together
+  std::function<void(World&, const LoadState&, const LoadResult&)> checkpoint;
+};
+
+/// Runs a test from where it stands to its end, or until it is interrupted.
+/// @param state   of a test not begun, or with the world and the result from a checkpoint
+/// @param result  filled as the run goes, so that what there is survives an exception
+/// @throws SimulationBroke when a guard stops it, see core/loading/stability_checks.hpp
+void run_load_test(World& world, const Assembly& assembly, const LoadTest& test, const LoadHooks& hooks,
+                   LoadState& state, LoadResult& result);
+
+/// The same from the start.
+void run_load_test(World& world, const Assembly& assembly, const LoadTest& test, const LoadHooks& hooks,
+                   LoadResult& result);
+
+}  // namespace breccia

@@ -1,0 +1,268 @@
+#include "core/loading/summarise.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/loading/error_estimate.hpp"
+#include "core/loading/strength.hpp"
+#include "core/tables/state_hash.hpp"
+
+namespace breccia {
+
+std::string name_of(Stopped stopped) {
+  switch (stopped) {
+    case Stopped::strain:
+      return "strain";
+    case Stopped::peak_drop:
+      return "peak drop";
+    case Stopped::pressure:
+      return "pressure";
+    case Stopped::interrupted:
+      return "interrupted";
+    case Stopped::no_rest:
+      return "no rest";
+  }
+  return "?";
+}
+
+namespace {
+
+void warn_if_dynamic(const CurveFindings& f, RunSummary& run) {
+  // (B87)
+  if (f.kinetic_ratio > 1e-3)
+    run.warnings.push_back(fmt::format(
+        "dynamic: kinetic over stored energy reaches {:.1e} before the peak (quasi-static: below 1e-3); "
+        "lower test.platen_speed",
+        f.kinetic_ratio));
+  if (f.platen_mismatch > 0.02)
+    run.warnings.push_back(fmt::format(
+        "dynamic: the platens differ by {:.1f} % of the peak before it (quasi-static: below 2 %); "
+        "lower test.platen_speed",
+        100 * f.platen_mismatch));
+}
+
+/// Moduli are those of the first loading: a way up to the peak that was unloaded is no straight line.
+void read_moduli_before(double unloaded, std::span<const CurveRow> rows, std::span<const double> mismatch,
+                        CurveFindings& f) {
+  std::size_t count = 0;
+  while (count < rows.size() && rows[count].time_s < unloaded) ++count;
+  const CurveFindings first = read_curve(rows.first(count), mismatch.first(count));
+  f.young_modulus = first.young_modulus;
+  f.poisson_ratio = first.poisson_ratio;
+  f.young_modulus_50 = {};  // half the peak may lie beyond that loading
+}
+
+/// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the lid's
+/// pressure.
+CurveFindings findings(const std::string& test, const LoadTest& load, const LoadResult& result) {
+  std::vector<CurveRow> rows = result.record.rows;
+  if (test == "shear")
+    for (CurveRow& row : rows) row.confining_stress_Pa = 0;
+  CurveFindings f = read_curve(rows, result.record.mismatch, load.confinement);
+  if (!result.cycles.empty())
+    read_moduli_before(result.cycles.front().unloaded, rows, result.record.mismatch, f);
+  if (test == "shear") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};
+  if (test == "usc") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};  // of no free side
+  if (test == "bts") f.young_modulus = f.young_modulus_50 = f.poisson_ratio = f.crack_damage_stress = {};
+  return f;
+}
+
+/// Where a disc cracked first decides whether its strength is a tensile one.
+/// (B85)
+void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunSummary& run) {
+  run.tensile_strength_Pa = run.peak_stress_Pa;
+  constexpr double strip = 0.15;  // half-width over radius
+  if (run.peak_stress_Pa)
+    run.strip_corrected_strength_Pa = *run.peak_stress_Pa * std::pow(1 - strip * strip, 1.5);
+  run.first_drop_stress_Pa = stress_at_first_drop(result.record.rows, 0.05);
+  const auto& cracks = w.cracks.cracks;
+  if (cracks.empty()) return;
+  const std::size_t first = std::min<std::size_t>(20, cracks.size());
+  std::size_t central = 0;
+  for (std::size_t k = 0; k < first; ++k) central += std::abs(cracks[k].position.z) < 0.3 * a.body.diameter;
+  run.first_cracks = 2 * central >= first ? "central" : "at the strips";
+}
+
+/// Pa, mean over the rows around the peak whose stress is within 5 % of it: one row alone reads the waves that
+/// each broken bond sends out.
+double held_around_peak(std::span<const CurveRow> rows, std::size_t peak) {
+  const auto is_near = [&](std::size_t k) {
+    return rows[k].axial_stress_Pa > 0.95 * rows[peak].axial_stress_Pa;
+  };
+  std::size_t first = peak, last = peak;
+  while (first > 0 && is_near(first - 1)) --first;
+  while (last + 1 < rows.size() && is_near(last + 1)) ++last;
+  double sum = 0;
+  for (std::size_t k = first; k <= last; ++k) sum += rows[k].confining_stress_Pa;
+  return sum / static_cast<double>(last - first + 1);
+}
+
+/// A servo that lags holds another stress than was asked for: of a shear box that dilates quickly, the normal
+/// stress; of a hydrostatic test, the axial one.
+void warn_if_not_held(const std::string& test, const LoadTest& load, const LoadResult& result,
+                      const CurveFindings& f, RunSummary& run) {
+  const auto& rows = result.record.rows;
+  if (rows.empty()) return;
+  constexpr double allowed = 0.05;
+  const double mega = 1e-6, asked = load.confinement;
+  if (load.loading == Loading::hydrostatic) {
+    double most = 0;
+    for (const CurveRow& row : rows)
+      if (row.confining_stress_Pa > 0.25 * asked)
+        most = std::max(most, std::abs(row.axial_stress_Pa / row.confining_stress_Pa - 1.0));
+    if (most > allowed)
+      run.warnings.push_back(fmt::format(
+          "the axial stress differs by {:.0f} % from the pressure on the mantle; lower test.platen_speed",
+          100 * most));
+    return;
+  }
+  if (asked == 0 || test == "usc") return;
+  const double held = held_around_peak(rows, f.peak_row);
+  run.confining_stress_at_peak_Pa = held;
+  double square = 0;  // on the way up
+  for (std::size_t k = 0; k <= f.peak_row; ++k)
+    square += std::pow(rows[k].confining_stress_Pa / asked - 1.0, 2) / static_cast<double>(f.peak_row + 1);
+  const double off = std::sqrt(square), at_peak = std::abs(rows[f.peak_row].confining_stress_Pa / asked - 1.0);
+  if (std::max({off, at_peak, std::abs(held / asked - 1.0)}) > allowed)
+    run.warnings.push_back(
+        fmt::format("{} was {:.4g} MPa around the peak ({:.0f} % off at it, {:.0f} % on the way to it), where "
+                    "{:.4g} MPa was asked for; lower test.platen_speed",
+                    load.loading == Loading::shear ? "the normal stress" : "the confinement", mega * held,
+                    100 * at_peak, 100 * off, mega * asked));
+}
+
+/// Elastic constants that no solid has are those of a specimen that yields: under its confinement, or at once.
+void warn_if_not_elastic(const CurveFindings& f, RunSummary& run) {
+  constexpr double noise = 0.05;
+  if (f.poisson_ratio && !(*f.poisson_ratio > -noise && *f.poisson_ratio < 0.5 + noise))
+    run.warnings.push_back(
+        fmt::format("poisson_ratio {:.2f} is none of a solid: the specimen was not elastic where the moduli are read",
+                    *f.poisson_ratio));
+  if (f.young_modulus && !(*f.young_modulus > 0.0))
+    run.warnings.push_back(fmt::format("young_modulus {:.3g} GPa is none of a solid", *f.young_modulus * 1e-9));
+}
+
+/// An unloading that a case asks for, and that its run ended before.
+void warn_if_not_unloaded(const LoadTest& load, const LoadResult& result, RunSummary& run) {
+  for (std::size_t k = result.cycles.size(); k < load.unload_at.size(); ++k)
+    run.warnings.push_back(
+        fmt::format("test.unload_at {:g} was not reached: the run had ended ({})", load.unload_at[k],
+                    run.stopped_by));
+  if (!result.cycles.empty() && !(result.cycles.back().reloaded > result.cycles.back().unloaded))
+    run.warnings.push_back(fmt::format("test.unload_at {:g}: the run ended ({}) before it was loaded again",
+                                       load.unload_at[result.cycles.size() - 1], run.stopped_by));
+}
+
+/// Under even pressure there is no peak; the answer is a bulk modulus.
+void forget_the_peak(const LoadResult& result, RunSummary& run) {
+  run.peak_reached = false;
+  run.peak_deviator_Pa = run.strain_at_peak = run.young_modulus_Pa = run.young_modulus_50_Pa =
+      run.poisson_ratio = run.crack_damage_stress_Pa = run.kinetic_ratio = run.platen_mismatch = {};
+  run.peak_stress_Pa = 0;
+  for (const CurveRow& row : result.record.rows)
+    run.peak_stress_Pa = std::max(*run.peak_stress_Pa, row.axial_stress_Pa);
+  run.bulk_modulus_Pa = bulk_modulus(result.record.rows);
+}
+
+}  // namespace
+
+RunSummary summarise(const std::string& test, const World& w, const Assembly& a, const LoadTest& load,
+                     const LoadResult& result) {
+  const CurveFindings f = findings(test, load, result);
+  RunSummary run;
+  run.confinement_Pa = load.confinement;
+  if (!result.record.rows.empty()) {
+    run.peak_stress_Pa = f.peak_stress;
+    run.peak_deviator_Pa = f.peak_deviator;
+    run.strain_at_peak = f.strain_at_peak;
+    run.kinetic_ratio = f.kinetic_ratio;
+    run.platen_mismatch = f.platen_mismatch;
+  }
+  run.peak_reached = f.peak_reached;
+  run.young_modulus_Pa = f.young_modulus;
+  run.young_modulus_50_Pa = f.young_modulus_50;
+  run.poisson_ratio = f.poisson_ratio;
+  run.crack_initiation_stress_Pa = f.crack_initiation_stress;
+  run.crack_damage_stress_Pa = f.crack_damage_stress;
+  run.alpha = w.alpha;
+  run.particles = w.particles.size;
+  run.bonds = w.bonds.size;
+  run.coordination = a.coordination;
+  run.dropped_bonds = a.dropped_bonds;
+  run.short_bonds = a.short_bonds;
+  const BrokenCount broken = count_broken(w);
+  run.broken_tension = broken.tension;
+  run.broken_shear = broken.shear;
+  run.steps = w.step;
+  run.time_step_s = w.step_monitor.first_dt;
+  run.lowest_time_step_s = w.dt;
+  run.critical_time_step_s = w.critical_dt;
+  run.step_estimates = w.step_monitor.looks;
+  run.mass_factor = w.mass_scaling.factor;
+  run.scaled_particles = w.mass_scaling.scaled;
+  run.run_time_s = result.run_time;
+  for (std::size_t k = 0; k < phase_names.size(); ++k)
+    run.phases_s.emplace_back(phase_names[k], w.phases.seconds[k]);
+  const double updates = static_cast<double>(w.bonds.size) * static_cast<double>(w.step);
+  run.bond_updates_per_s =
+      updates / (result.run_time - w.phases[Phase::output] - w.phases[Phase::checkpoint]);
+  run.bond_pass_per_s = updates / (w.phases[Phase::bonds] + w.phases[Phase::gather]);
+  if (w.ledger.enabled) run.energy_error = energy_error(w.ledger);
+  run.state_hash = state_hash(w.particles, w.bonds);
+  run.stopped_by = name_of(result.stopped);
+  run.warnings = result.warnings;
+  warn_if_not_held(test, load, result, f, run);
+  warn_if_not_unloaded(load, result, run);
+  if (test == "bts") read_disc(w, a, result, run);
+  if (test == "tension") run.tensile_strength_Pa = run.peak_stress_Pa;
+  if (test == "shear") run.peak_deviator_Pa.reset();
+  std::vector<std::pair<double, double>> cycles;
+  for (const Cycle& c : result.cycles) cycles.emplace_back(c.unloaded, c.reloaded);
+  run.cycles = read_cycles(result.record.rows, cycles);
+  if (w.cracks.missed > 0)
+    run.warnings.push_back(
+        fmt::format("{} bonds broke in steps that broke too many at once to record each", w.cracks.missed));
+  if (load.loading == Loading::hydrostatic) {
+    forget_the_peak(result, run);
+    return run;
+  }
+  if (!f.doubt.empty()) {
+    run.warnings.push_back("no strength: " + f.doubt);
+    run.tensile_strength_Pa = run.strip_corrected_strength_Pa = {};
+  }
+  warn_if_not_elastic(f, run);
+  warn_if_dynamic(f, run);
+  if (run.peak_reached) {
+    const ErrorEstimate e =
+        estimate_error(f.kinetic_ratio, f.platen_mismatch, run.energy_error, run.particles);
+    run.rate_error = e.rate;
+    run.step_error = e.step;
+    run.sampling_error = e.sampling;
+  }
+  return run;
+}
+
+void fit_peaks(SeriesSummary& series) {
+  series.mohr_coulomb.reset();
+  series.no_mohr_coulomb.clear();
+  const bool shear = series.test == "shear";
+  if (series.runs.size() < 2 || !(shear || series.test == "triaxial" || series.test == "biaxial")) return;
+  std::vector<double> confinement, peak;
+  for (const RunSummary& run : series.runs) {
+    if (!run.peak_reached) continue;  // the largest stress so far is not a strength
+    confinement.push_back(run.confining_stress_at_peak_Pa.value_or(run.confinement_Pa));
+    peak.push_back(*run.peak_stress_Pa);
+  }
+  const auto line = shear ? fit_shear_line(confinement, peak) : fit_mohr_coulomb(confinement, peak);
+  if (line)
+    series.no_mohr_coulomb = doubt_about(*line);
+  else
+    series.no_mohr_coulomb = peak.size() < 2
+                                 ? fmt::format("{} of {} runs reached a peak, and a line needs two",
+                                               peak.size(), series.runs.size())
+                                 : "the peaks do not rise with the confinement";
+  if (line && series.no_mohr_coulomb.empty()) series.mohr_coulomb = line;
+}
+
+}  // namespace breccia

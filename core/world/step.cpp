@@ -1,0 +1,162 @@
+// The step, as a page of verbs.
+#include <algorithm>
+
+#include "core/base/threads.hpp"
+#include "core/world/world.hpp"
+#include "kernels/loops/contact_pass.hpp"
+
+namespace breccia {
+namespace {
+
+bool rebuild_is_due(World& w) {
+  const Lap lap(w.phases, Phase::search);
+  return rebuild_is_due(w.neighbour_list, w.particles, w.partition, w.step, w.dt, w.options.threads);
+}
+
+void search_if_due(World& w) {
+  if (!rebuild_is_due(w)) return;
+  finish_halo_exchange(w);
+  const Lap lap(w.phases, Phase::search);
+  // of several ranks the root lists the contacts and looks at the step, for all of them
+  World& whole = gather_to_root(w);
+  if (w.partition.ranks.is_root()) {
+    const ContactMaterial material{w.material.young_modulus, w.alpha, w.space};
+    renew_contacts(whole.neighbour_list, whole.contacts, whole.particles, material, whole.features,
+                   whole.ledger.enabled, whole.options.threads);
+    renew_contacts(whole.ledger, whole.contacts);
+    revise_step(whole);
+  }
+  if (!w.partition.ranks.alone()) return broadcast_contacts(w);
+  plan_contacts(w);
+}
+
+void confine(World& w) {
+  const Lap lap(w.phases, Phase::confinement);
+  apply_confinement(w.confinement, w.particles, w.partition);
+}
+
+/// The record of cracks looks at the bonds that have just broken.
+void sync_broken(World& w) {
+  if (w.single_bonds.empty()) return;
+  for (const BreakNotes& notes : w.cracks.notes)
+    for (const BreakEvent& broken : notes.room.first(std::min(notes.count, notes.room.size())))
+      history_to_double(w.single_bonds, broken.bond, broken.bond + 1, w.bonds);
+}
+
+/// Calls pass(first, last) for the bonds of a range: all of them, or of several ranks the runs of whole
+/// blocks that reach, or do not reach, into other ranks' parts.
+template <class Pass>
+void for_blocks(const World& w, int range, bool reaching, const Pass& pass) {
+  const std::size_t last = w.bond_plan.first(range + 1);
+  std::size_t first = w.bond_plan.first(range);
+  if (w.partition.ranks.alone()) return pass(first, last);
+  const auto is_wanted = [&](std::size_t bond) {
+    return (w.partition.interface_blocks[bond / ForceBuffer::capacity] != 0) == reaching;
+  };
+  while (first < last) {
+    std::size_t end = first;
+    while (end < last && is_wanted(end)) end += ForceBuffer::capacity;
+    end = std::min(end, last);
+    if (first < end) pass(first, end);
+    first = std::max(end, first + ForceBuffer::capacity);
+  }
+}
+
+void pass_over_bonds(World& w, bool reaching) {
+  const Lap lap(w.phases, Phase::bonds);
+  BondTable& b = w.bonds;
+  const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, b.arm_offset, w.particles);
+  const BondPassIn in = bond_pass_in(w);
+  const BondPassHistory history = bond_pass_history(w);
+  // copies, which lie behind the blocks of owned bonds, break on the rank that owns them
+  const std::size_t owned = ForceBuffer::capacity * force_blocks(b.size);
+  for_ranges(w.bond_plan.ranges, [&](int range) {
+    for_blocks(w, range, reaching, [&](std::size_t first, std::size_t last) {
+      if (first < owned)
+        w.bond_pass(in, history, first, std::min(last, owned), to, notes_of(w.cracks, range));
+      if (last > owned) w.bond_pass(in, history, std::max(first, owned), last, to, nullptr);
+    });
+  });
+}
+
+void bond_forces(World& w) {
+  pass_over_bonds(w, false);
+  if (!w.partition.ranks.alone()) {
+    finish_halo_exchange(w);
+    pass_over_bonds(w, true);
+  }
+  const Lap lap(w.phases, Phase::bonds);
+  sync_broken(w);
+  record_cracks(w.cracks, w.law, w.features.criterion == Criterion::coupled, w.time, w.dt, w.particles,
+                w.bonds);
+}
+
+void contact_forces(World& w) {
+  if (w.contacts.padded == 0) return;
+  const Lap lap(w.phases, Phase::contacts);
+  ParticleTable& p = w.particles;
+  ContactTable& c = w.contacts;
+  const Scatter to = scatter_view(w.contact_plan, c.row_lo, c.row_hi, c.arm_offset, p);
+  const ContactPassIn in{
+      w.dt,     w.shear_ratio, w.friction, w.features.rotation, p.position,  p.velocity, p.spin,
+      p.radius, c.row_lo,      c.row_hi,   c.arm_offset,        c.stiffness, c.damping};
+  const ContactPassHistory history{c.free_length, c.shear_force, c.viscous_force, w.ledger.contacts};
+  for_ranges(w.contact_plan.ranges, [&](int range) {
+    contact_pass(in, history, w.contact_plan.first(range), w.contact_plan.first(range + 1), to);
+  });
+  collect(w.contact_plan, p, w.partition.owned(), w.options.threads);
+}
+
+void gather_bond_forces(World& w) {
+  const Lap lap(w.phases, Phase::gather);
+  collect(w.bond_plan, w.particles, w.partition.owned(), w.options.threads);
+}
+
+void restrain_laterally(World& w) {
+  const Lap lap(w.phases, Phase::confinement);
+  restrain_laterally(w.confinement, w.particles, w.partition);
+}
+
+void account_energies(World& w) {
+  if (!w.ledger.enabled) return;
+  const Lap lap(w.phases, Phase::ledger);
+  account_motion(w);
+}
+
+void move_platens(World& w) {
+  const Lap lap(w.phases, Phase::platens);
+  drive_platens(w.platens, w.particles, w.partition, w.first_top, w.dt);
+}
+
+void integrate(World& w) {
+  const Lap lap(w.phases, Phase::integrate);
+  ParticleTable& p = w.particles;
+  const Motion motion = motion_of(w);
+  const GlobalDamping& damping = w.options.global_damping;
+  const Rows free = w.partition.owned(0, p.free), lower = w.partition.owned(p.free, w.first_top),
+             upper = w.partition.owned(w.first_top, p.size);
+  for_rows(free.last - free.first, w.options.threads, [&](std::size_t first, std::size_t last) {
+    w.integrate_free(motion, free.first + first, free.first + last, w.dt, damping);
+  });
+  integrate_held(motion, lower.first, lower.last, w.dt, damping, {w.platens.velocity[0], !w.platens.rough});
+  integrate_held(motion, upper.first, upper.last, w.dt, damping, {w.platens.velocity[1], !w.platens.rough});
+}
+
+}  // namespace
+
+void advance(World& w) {
+  search_if_due(w);
+  confine(w);
+  bond_forces(w);
+  gather_bond_forces(w);
+  contact_forces(w);
+  restrain_laterally(w);
+  move_platens(w);
+  account_energies(w);
+  integrate(w);
+  start_halo_exchange(w);
+  w.time += w.dt;
+  ++w.step;
+}
+
+}  // namespace breccia

@@ -1,0 +1,92 @@
+#include "core/world/stress.hpp"
+
+#include "kernels/loops/bond_energy.hpp"
+
+namespace breccia {
+namespace {
+
+/// Calls add(lo, hi, unit normal, distance, force on lo) for every bond and every pressed contact of the
+/// first so many; padding has no stiffness, and no force.
+template <class Add>
+void for_each_force(const World& w, std::size_t bonds, std::size_t contacts, const Add& add) {
+  const ParticleTable& p = w.particles;
+  const BondTable& b = w.bonds;
+  const bool coupled = w.features.criterion == Criterion::coupled;
+  std::visit(
+      [&](const auto& law) {
+        for (std::size_t k = 0; k < bonds; ++k) {
+          if (b.stiffness[k] == 0.0) continue;
+          const Vec3 l = p.position[b.row_hi[k]] - p.position[b.row_lo[k]];
+          const double distance = norm(l);
+          const Vec3 n = (1.0 / distance) * l;
+          const BondForce<double> f =
+              force_of_state(law, constants_of_bond(b, k), history_of_bond(b, k), distance, coupled);
+          add(b.row_lo[k], b.row_hi[k], n, distance, f.normal * n + f.shear);
+        }
+      },
+      w.law);
+  const ContactTable& c = w.contacts;
+  for (std::size_t k = 0; k < contacts; ++k) {
+    if (c.stiffness[k] == 0.0) continue;
+    const Vec3 l = p.position[c.row_hi[k]] - p.position[c.row_lo[k]];
+    const double distance = norm(l), overlap = c.free_length[k] - distance;
+    if (overlap <= 0.0) continue;
+    const Vec3 n = (1.0 / distance) * l;
+    add(c.row_lo[k], c.row_hi[k], n, distance, (-c.stiffness[k] * overlap) * n + c.shear_force[k]);
+  }
+}
+
+void add_product(Stress& s, double factor, const Vec3& f, const Vec3& x) {
+  s.normal += factor * Vec3{f.x * x.x, f.y * x.y, f.z * x.z};
+  s.shear += (0.5 * factor) * Vec3{f.y * x.z + f.z * x.y, f.z * x.x + f.x * x.z, f.x * x.y + f.y * x.x};
+}
+
+}  // namespace
+
+Stress mean_stress_tensor(const World& w) {
+  Stress s;
+  for_each_force(w, w.bonds.size, w.contacts.size,
+                 [&](Row, Row, const Vec3& n, double distance, const Vec3& on_lo) {
+                   add_product(s, distance / w.volume, on_lo, n);
+                 });
+  return s;
+}
+
+void fill_stress_columns(World& w) {
+  ParticleTable& p = w.particles;
+  const auto share = [&](std::size_t row) {
+    const double r = p.radius[row];
+    return w.space == Space::two_d ? r * r : r * r * r;
+  };
+  double shares = 0.0;
+  for (std::size_t row = 0; row < p.size; ++row) shares += share(row);
+  std::vector<Stress> stress(p.size);
+  // of several ranks the copies too: they end in this one's part
+  for_each_force(w, w.bonds.padded, w.contacts.padded,
+                 [&](Row lo, Row hi, const Vec3& n, double distance, const Vec3& on_lo) {
+                   const double ratio = distance / (p.radius[lo] + p.radius[hi]);
+                   add_product(stress[lo], ratio * p.radius[lo], on_lo, n);
+                   add_product(stress[hi], ratio * p.radius[hi], on_lo, n);
+                 });
+  p.stress_normal.assign(p.padded, {});
+  p.stress_shear.assign(p.padded, {});
+  for (std::size_t row = 0; row < p.size; ++row) {
+    const double by_volume = shares / (share(row) * w.volume);
+    p.stress_normal[row] = by_volume * stress[row].normal;
+    p.stress_shear[row] = by_volume * stress[row].shear;
+  }
+  BondTable& b = w.bonds;
+  if (b.damage_normal.empty()) return;
+  b.failure_state.assign(b.padded, 0.0);
+  const bool coupled = w.features.criterion == Criterion::coupled;
+  std::visit(
+      [&](const auto& law) {
+        for (std::size_t k = 0; k < b.size; ++k)
+          b.failure_state[k] =
+              failure_state(law, constants_of_bond(b, k), history_of_bond(b, k),
+                            norm(p.position[b.row_hi[k]] - p.position[b.row_lo[k]]), coupled);
+      },
+      w.law);
+}
+
+}  // namespace breccia

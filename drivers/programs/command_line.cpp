@@ -1,0 +1,141 @@
+#include "drivers/programs/command_line.hpp"
+
+#include <fmt/format.h>
+#include <sched.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <new>
+#include <thread>
+
+#include "core/base/error.hpp"
+#include "io/cases/case.hpp"
+
+namespace breccia {
+namespace {
+
+std::atomic<bool> stop_asked = false, results_begun = false;
+
+void ask_to_stop(int) {
+  if (!results_begun) _exit(130);  // reading, packing, bonding: nothing is lost
+  stop_asked = true;
+}
+
+int end(const std::string& program, std::string_view what, int code) {
+  std::string line(what);
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  fmt::print(stderr, "{}: {}\n", program, line);
+  return code;
+}
+
+/// Of several ranks the root speaks. Another one has something to say only when it alone is in trouble: it waits for
+/// the root's word, which ends the job for all.
+int end_rank(const Ranks& ranks, const std::string& program, std::string_view what, int code) {
+  if (ranks.alone()) return end(program, what, code);
+  if (!ranks.is_root()) {
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    end(fmt::format("{}, rank {}", program, ranks.rank), what, code);
+  } else {
+    end(program, what, code);
+  }
+  std::fflush(nullptr);
+  mpi_abort(code);
+}
+
+}  // namespace
+
+bool interrupted() { return stop_asked; }
+
+void begin_results() { results_begun = true; }
+
+int available_cores() {
+  cpu_set_t mask;
+  CPU_ZERO(&mask);
+  return sched_getaffinity(0, sizeof(mask), &mask) == 0 ? std::max(1, CPU_COUNT(&mask)) : 1;
+}
+
+std::optional<int> read_command_line(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return end(app.get_name(), fmt::format("{} (see {} --help)", error.what(), app.get_name()), 2);
+  }
+  return std::nullopt;
+}
+
+int run_body(const std::string& program, int threads, const std::function<void()>& body, bool several_ranks) {
+  struct sigaction action {};
+  action.sa_handler = ask_to_stop;
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  Ranks ranks = ranks_of_launcher();
+  if (!ranks.alone() && !several_ranks)
+    return ranks.is_root()
+               ? end(program,
+                     fmt::format("{} ranks asked for; this program runs on one (use --threads)", ranks.count),
+                     2)
+               : 2;
+  ranks = mpi_init();
+  try {
+    body();
+  } catch (const BadInput& error) {
+    return end_rank(ranks, program, error.what(), 2);
+  } catch (const SimulationBroke& error) {
+    return end_rank(ranks, program, error.what(), 3);
+  } catch (const WriteError& error) {
+    return end_rank(ranks, program, error.what(), 4);
+  } catch (const std::bad_alloc&) {
+    return end_rank(ranks, program, "not enough memory: use fewer spheres", 3);
+  }
+  mpi_finalize();
+  return interrupted() ? 130 : 0;
+}
+
+int run_program(const std::string& name, const std::string& about, int argc, char** argv,
+                const std::function<void(const CommandLine&)>& body, const std::string& keys,
+                bool several_ranks) {
+  const std::string program = "breccia-" + name;
+  CommandLine line;
+  line.program = name;
+  line.threads = available_cores();
+  CLI::App app(about, program);
+  app.set_version_flag("--version", std::string(BRECCIA_VERSION));
+  app.add_option("CASE.toml", line.case_file, "the case to run")->required();
+  app.add_option("--set", line.sets, "table.key=value, instead of the case's")->allow_extra_args(false);
+  app.add_option("--out", line.out, "folder for the results [out/CASE]");
+  app.add_option("--threads", line.threads, fmt::format("[{} here]", line.threads))
+      ->check(CLI::Range(1, 4096));
+  app.add_flag("--explain", line.explain, "say what the scene uses and leaves out; write nothing");
+  app.add_flag("--dry-run", line.dry_run, "read, check, bond, print; write nothing");
+  app.add_flag("--force", line.force, "replace results that are there");
+  app.add_flag("--quiet", line.quiet, "errors only");
+  app.add_flag("--resume", line.resume, "go on from the newest checkpoint in the folder of results");
+  app.footer(keys.empty() ? describe_keys(name) : keys);
+  if (const auto code = read_command_line(app, argc, argv)) return *code;
+  if (line.out.empty()) line.out = std::filesystem::path("out") / line.case_file.stem();
+  return run_body(
+      program, line.threads,
+      [&] {
+        if (line.resume && line.force)
+          fail<BadInput>(
+              "--resume, --force: one keeps the results that are there, the other replaces them; give one");
+        line.ranks = ranks_of_launcher();
+        body(line);
+      },
+      several_ranks);
+}
+
+int run_laboratory_test(const std::string& name, const std::string& about, int argc, char** argv,
+                        const std::function<void(const CommandLine&)>& body) {
+  return run_program(name, about, argc, argv, body, {}, true);
+}
+
+}  // namespace breccia

@@ -1,0 +1,64 @@
+#include "drivers/programs/impact_program.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "io/cases/impact_case.hpp"
+#include "io/files/atomic_write.hpp"
+#include "io/files/run_folder.hpp"
+#include "io/results/impact_results.hpp"
+#include "io/results/progress.hpp"
+
+namespace breccia {
+namespace {
+
+std::string explain(const ImpactScene& s) {
+  const bool hertz = s.law == ContactLaw::hertz_mindlin;
+  return fmt::format(
+      "law: {}\nused: spin, friction, damping from restitution{}{}\nleft out: bonds, global damping, "
+      "checkpoints\n"
+      "loops of a step: search if due, pairs, walls, integrate; one thread but for the search\n",
+      hertz ? (s.form == HertzForm::classic ? "hertz-mindlin, classic" : "hertz-mindlin, dissipative")
+            : "linear",
+      norm(s.gravity) > 0.0 ? ", gravity" : "", s.walls.empty() ? "" : ", walls");
+}
+
+}  // namespace
+
+void run_impact_program(const CommandLine& line) {
+  if (line.resume) fail<BadInput>("--resume: this program makes no checkpoints; run it anew, with --force");
+  ImpactCase c = load_impact_case(line.case_file, line.sets);
+  c.scene.threads = line.threads;
+  Progress progress = make_progress(line.quiet);
+  const double critical = critical_impact_step(c.scene);
+  say(progress,
+      fmt::format("{} particles, {} walls; step {:.4g} s, {:.3g} of the critical {:.4g} s; {:.0f} steps",
+                  c.scene.particles.size(), c.scene.walls.size(), c.scene.safety * critical, c.scene.safety,
+                  critical, std::ceil(c.scene.duration / (c.scene.safety * critical))));
+  if (line.explain) say(progress, explain(c.scene));
+  if (line.explain || line.dry_run) return;
+
+  begin_results();
+  claim_run_folder(line.out, line.force);
+  atomic_write(line.out / "case.toml", c.resolved);
+  ImpactResult result;
+  try {
+    run_impact(c.scene, result, interrupted);
+  } catch (const SimulationBroke&) {
+    write_impact_curve(line.out / "curve-0.csv", result.rows);
+    throw;
+  }
+  write_impact_curve(line.out / "curve-0.csv", result.rows);
+  write_impact_summary(line.out / "summary.json", c.scene, result);
+  say(progress, fmt::format("{} steps in {:.2f} s; kinetic energy {:.6g} J before, {:.6g} J after\n",
+                            result.steps, result.run_time, result.kinetic_before, result.kinetic_after));
+  say(progress, format_impact_table(result));
+  std::string files;
+  for (const char* name : {"case.toml", "summary.json", "curve-0.csv"})
+    files += fmt::format("{}{}", files.empty() ? "" : ", ", (line.out / name).string());
+  say(progress, fmt::format("files: {}", files));
+}
+
+}  // namespace breccia

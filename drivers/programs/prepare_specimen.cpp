@@ -1,0 +1,165 @@
+#include "drivers/programs/prepare_specimen.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/bonding/law_of_material.hpp"
+#include "core/bonding/section_area.hpp"
+#include "core/elastic/elastic_network.hpp"
+#include "io/cases/keys_material.hpp"
+#include "io/specimens/read_specimen.hpp"
+#include "kernels/loops/bond_pass.hpp"
+
+namespace breccia {
+namespace {
+
+/// What is said of a key from far below gets "file:line" in front.
+template <class Work>
+auto with_place(const Case& c, const Work& work) {
+  try {
+    return work();
+  } catch (const BadInput& bad) {
+    const std::string text = bad.what(), key = text.substr(0, text.find(':'));
+    if (find_key(key)) fail<BadInput>("{}: {}", place_of(c, key), text);
+    throw;
+  }
+}
+
+}  // namespace
+
+Specimen make_specimen(const Case& c, Progress& progress) {
+  const SpecimenCase& s = c.specimen;
+  if (s.pack) {
+    try {
+      say(progress, fmt::format("packing {} {}", spheres_of(s.body, *s.pack),
+                                s.space == Space::two_d ? "discs" : "spheres"));
+      return pack_spheres(s.body, *s.pack);
+    } catch (const BadPacking& bad) {
+      const std::string key = "specimen.pack." + bad.key;
+      fail<BadInput>("{}: {}: {}", place_of(c, key), key, bad.what());
+    }
+  }
+  Specimen specimen = place_specimen(read_specimen(*s.file), s.axis, s.centre, s.space);
+  check_specimen(specimen, s.body, s.space);
+  return specimen;
+}
+
+Features asked_features(const Case& c) {
+  Features f;
+  f.rotation = c.features.rotation;
+  f.plasticity = c.features.plasticity && facts_of(c.materials.front().law).plasticity;
+  f.breakage = c.features.breakage;
+  f.contact_damping = c.damping.contact > 0.0;
+  f.criterion = c.materials.front().criterion;
+  return f;
+}
+
+namespace {
+
+/// Those that will run.
+Features features_that_run(const Case& c, const Features& asked) {
+  const Material& m = c.materials.front();
+  try {
+    return built_features(law_of(m, paper_shear_ratio(m.poisson_ratio)), asked,
+                          {c.precision, c.features.energy_ledger});
+  } catch (const std::invalid_argument&) {
+    if (c.precision == Precision::mixed)
+      fail<BadInput>(
+          "{}: run.precision \"mixed\" is built for material.law \"dempack\" without the criterion "
+          "\"coupled\"; leave run.precision out",
+          place_of(c, "run.precision"));
+    fail<BadInput>("{}: material.law \"{}\" has no criterion \"coupled\"; leave material.criterion out",
+                   place_of(c, "material.criterion"), m.law);
+  }
+}
+
+std::string describe(const Assembly& a) {
+  return fmt::format(
+      "{} {}, mean radius {:.4g} mm; {} bonds within a range of {:.3g}, {:.2f} per {}{}{}", a.particles.size,
+      a.space == Space::two_d ? "discs" : "spheres", a.mean_radius * 1e3, a.bonds.size, a.range,
+      a.coordination, a.space == Space::two_d ? "disc" : "sphere",
+      a.short_bonds ? fmt::format(", {} of nested spheres", a.short_bonds) : "",
+      a.dropped_bonds ? fmt::format("; {} pairs in range have no common face", a.dropped_bonds) : "");
+}
+
+AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, bool rough, int threads,
+                       Progress& progress) {
+  const AreaFactor f = find_area_factor(
+      assembly, {rule, c.bonds.alpha, c.bonds.elasticity, c.materials.front(), rough}, threads);
+  const BondLaw law = law_of(c.materials.front(), f.shear_ratio);
+  say(progress, fmt::format("alpha {:.4f} (areas tile space {:.3f} times), k_s/k_n {:.4f}{}", f.alpha,
+                            f.fabric, std::visit([](const auto& l) { return l.shear_ratio; }, law),
+                            f.probes ? fmt::format("; elastic probe: E {:.4g} GPa, nu {:.4f}",
+                                                   f.young_modulus * 1e-9, f.poisson_ratio)
+                                     : ""));
+  return f;
+}
+
+}  // namespace
+
+std::string describe_elasticity(const Case& c, const ReadySpecimen& ready, int threads) {
+  Assembly a = ready.assembly;
+  if (a.grip != Support::ends) return "";
+  const Material& m = c.materials.front();
+  const double reach = 0.4 * a.length();  // the levels of the thesis' table 5.1, away from the ends
+  const double covered = area_through_levels(a.particles, a.bonds,
+                                             std::span(a.bonds.area).first(a.bonds.size), -reach, reach, 41)
+                             .mean /
+                         a.section();
+  for (double& area : a.bonds.area) area *= ready.factor.alpha;
+  const BondLaw law = law_of(m, ready.factor.shear_ratio);
+  const double ratio = std::visit([](const auto& l) { return l.shear_ratio; }, law);
+  const ElasticResponse e =
+      probe(a, bond_stiffness(law, a.particles, a.bonds), ratio, c.test.rough_platens, threads);
+  return fmt::format(
+      "specimen: E {:.7g} GPa, nu {:.6f} with k_s/k_n {:.4f}; their areas cover a section {:.4f} times",
+      e.young_modulus * 1e-9, e.poisson_ratio, ratio, covered);
+}
+
+ReadySpecimen make_ready(const Case& c, const std::string& test, const Features& asked, int threads,
+                         Progress& progress) {
+  const Features features = features_that_run(c, asked);
+  BondingRule rule{c.bonds.range,         c.bonds.coordination, c.bonds.area,
+                   c.bonds.strength_area, c.specimen.space,     Support::ends};
+  const Specimen specimen = make_specimen(c, progress);
+  Body body = c.specimen.body;
+  if (c.specimen.space == Space::two_d) {  // one metre thick
+    if (body.shape == Shape::box)
+      body.depth = 1.0;
+    else
+      body.height = 1.0;
+  }
+  ReadySpecimen ready;
+  const auto bonded = [&](const Specimen& s, const Body& b, Support grip) {
+    rule.grip = grip;
+    return with_place(c, [&] { return assemble(s, b, rule, features, threads, asked.rotation); });
+  };
+  if (test != "bts") {
+    Assembly ends = bonded(specimen, body, Support::ends);
+    say(progress, describe(ends));
+    ready.factor = area_factor(c, ends, c.bonds.alpha_rule, c.test.rough_platens, threads, progress);
+    ready.assembly = test == "shear" ? bonded(specimen, body, Support::halves) : std::move(ends);
+    return ready;
+  }
+  // a disc is probed along its axis, between its flat faces; a two-dimensional one has none
+  Body standing = body;
+  standing.on_edge = true;
+  if (c.specimen.space == Space::two_d) {
+    ready.assembly = bonded(specimen, standing, Support::strips);
+    say(progress, describe(ready.assembly));
+    AlphaRule alpha = c.bonds.alpha_rule;
+    if (alpha == AlphaRule::automatic) {
+      say(progress, "alpha: a disc in two dimensions has no flat ends to probe; the affine value is used");
+      alpha = AlphaRule::affine;
+    }
+    ready.factor = area_factor(c, ready.assembly, alpha, false, threads, progress);
+    return ready;
+  }
+  ready.assembly = bonded(stand_disc(specimen, c.specimen.axis, c.test.load_axis), standing, Support::strips);
+  say(progress, describe(ready.assembly));
+  const Assembly lying = bonded(specimen, body, Support::ends);
+  ready.factor = area_factor(c, lying, c.bonds.alpha_rule, false, threads, progress);
+  return ready;
+}
+
+}  // namespace breccia

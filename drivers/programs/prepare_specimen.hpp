@@ -1,0 +1,32 @@
+// From a case to a bonded specimen: read or packed, put in place, checked, bonded.
+#pragma once
+#include "core/bonding/assembly.hpp"
+#include "core/elastic/area_factor.hpp"
+#include "io/cases/case.hpp"
+#include "io/results/progress.hpp"
+
+namespace breccia {
+
+/// The spheres of a case, axis along z and middle at the origin.
+Specimen make_specimen(const Case& c, Progress& progress);
+
+/// What the scene of a case asks of the bond loop.
+Features asked_features(const Case& c);
+
+/// A specimen bonded and held as a test wants it, and the area factor of its bonds.
+struct ReadySpecimen {
+  Assembly assembly;
+  AreaFactor factor;
+};
+
+/// What a study of the specimen asks: the modulus and Poisson ratio that an elastic probe reads with the
+/// factor in use, and how often the bonds' areas cover a section. One line; empty for a
+/// specimen that is not held at its ends.
+std::string describe_elasticity(const Case& c, const ReadySpecimen& ready, int threads);
+
+/// @param test      name of the program
+/// @param asked     features of the scene
+ReadySpecimen make_ready(const Case& c, const std::string& test, const Features& asked, int threads,
+                         Progress& progress);
+
+}  // namespace breccia

@@ -1,0 +1,104 @@
+// A case file, resolved: every key with its unit taken off and its default filled in.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/base/scene_options.hpp"
+#include "core/geometry/specimen.hpp"
+#include "core/packing/packing.hpp"
+#include "kernels/laws/material.hpp"
+
+namespace breccia {
+
+struct SpecimenCase {
+  std::optional<std::filesystem::path> file;  ///< the case's folder in front
+  std::optional<PackRequest> pack;
+  Space space = Space::three_d;
+  Body body;                   ///< a disc in the plane: its height is its diameter
+  char axis = 'z';             ///< of the cylinder or disc in the file; in the plane the direction of loading
+  std::optional<Vec3> centre;  ///< m; overrides the middle of the box around the spheres
+};
+
+struct BondsCase {
+  double range = 0.10;                 ///< beta
+  std::optional<double> coordination;  ///< target instead of range
+  AlphaRule alpha_rule = AlphaRule::automatic;
+  double alpha = 0;  ///< when alpha_rule is number
+  Elasticity elasticity = Elasticity::paper;
+  AreaRule area = AreaRule::minimum;
+  std::optional<AreaRule> strength_area;  ///< nothing: alpha times the area
+};
+
+struct DampingCase {
+  double contact = 0.9;     ///< xi, fraction of critical, along the bond
+  bool paper_form = false;  ///< form = "paper": times pi alpha r_c/d0
+  DampingScheme scheme = DampingScheme::explicit_;
+  double translation = 0.1, rotation = 0.1;
+};
+
+struct TestCase {
+  std::vector<double> confinement{0.0};  ///< Pa
+  bool rough_platens = true;
+  double platen_speed = 0.1;  ///< m/s, of each platen
+  double stop_strain = 0.02;
+  double stop_after_peak = 0.5;   ///< fraction of the peak deviator; 0 = never
+  std::vector<double> unload_at;  ///< platen strains
+  double unload_to = 0.1;
+  std::optional<char> load_axis;  ///< bts: in the file
+  SkinWeights skin_weights = SkinWeights::radius;
+};
+
+struct FeatureCase {  ///< what the scene may leave out
+  bool rotation = true, plasticity = true, breakage = true, new_contacts = true, energy_ledger = true;
+};
+
+/// Where the material of a run comes from, if it has a table over the confinement.
+struct MaterialNote {
+  std::string from;     ///< which values of the table; empty: the same at every confinement
+  std::string values;   ///< of the keys that the table changes
+  std::string warning;  ///< empty: the table has an answer
+};
+
+struct Case {
+  std::filesystem::path source;  ///< the case file
+  SpecimenCase specimen;
+  std::string preset;               ///< name of the material preset; empty: none
+  std::vector<Material> materials;  ///< one per confinement, in the order of test.confinement
+  std::vector<MaterialNote> material_notes;  ///< one per confinement
+  BondsCase bonds;
+  DampingCase damping;
+  FeatureCase features;
+  TestCase test;
+  std::string accuracy = "normal";
+  double safety = 0.8;
+  bool mass_scaling = false;
+  double mass_factor = 1.5;  ///< of the total mass, where masses are scaled
+  ScatterKind scatter = ScatterKind::private_sums;
+  Precision precision = Precision::full;
+  double checkpoint_every = 300;  ///< s, wall time
+  int frames = 20;
+  bool stress = false, cracks = true;  ///< output
+  std::string resolved;                ///< the whole case as TOML, every default written out
+  std::map<std::string, std::string, std::less<>> places;  ///< "file:line" of each key that is given
+  std::vector<std::string> unusual;  ///< lines: defaults that another law, test, dimension or recipe has not
+};
+
+/// Reads, checks and resolves a case file.
+/// @param file   the case, TOML
+/// @param sets   `--set` overrides, each "table.key=value"
+/// @param test   name of the program: "ucs", "triaxial", "pack", ... (some keys belong to some tests only)
+/// @throws BadInput: one line with file, line, key and the nearest valid choice
+Case load_case(const std::filesystem::path& file, const std::vector<std::string>& sets,
+               const std::string& test);
+
+/// "file:line" of a key, or the case's file where it was not given.
+std::string place_of(const Case& c, std::string_view key);
+
+/// The keys that a test accepts, one a line: name, what is valid, default, meaning. For `--help`.
+std::string describe_keys(const std::string& test);
+
+}  // namespace breccia

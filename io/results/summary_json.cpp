@@ -1,0 +1,189 @@
+#include "io/results/summary_json.hpp"
+
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "io/files/atomic_write.hpp"
+
+namespace breccia {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys stay in the order in which they are explained
+
+Json of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json of(const CycleSummary& cycle) {
+  return {{"strain", cycle.strain},
+          {"permanent_strain", cycle.permanent_strain},
+          {"unloading_modulus_Pa", cycle.unloading_modulus_Pa},
+          {"reloading_modulus_Pa", cycle.reloading_modulus_Pa}};
+}
+
+/// The fields of a run in the order in which they are explained: what is written and what is read back.
+template <class Run, class Visit>
+void for_each_field(Run& run, Visit&& visit) {
+  visit("confinement_Pa", run.confinement_Pa);
+  visit("peak_stress_Pa", run.peak_stress_Pa);
+  visit("peak_deviator_Pa", run.peak_deviator_Pa);
+  visit("peak_reached", run.peak_reached);
+  visit("strain_at_peak", run.strain_at_peak);
+  visit("young_modulus_Pa", run.young_modulus_Pa);
+  visit("young_modulus_50_Pa", run.young_modulus_50_Pa);
+  visit("poisson_ratio", run.poisson_ratio);
+  visit("crack_initiation_stress_Pa", run.crack_initiation_stress_Pa);
+  visit("crack_damage_stress_Pa", run.crack_damage_stress_Pa);
+  visit("tensile_strength_Pa", run.tensile_strength_Pa);
+  visit("alpha", run.alpha);
+  visit("particles", run.particles);
+  visit("bonds", run.bonds);
+  visit("coordination", run.coordination);
+  visit("dropped_bonds", run.dropped_bonds);
+  visit("short_bonds", run.short_bonds);
+  visit("broken_tension", run.broken_tension);
+  visit("broken_shear", run.broken_shear);
+  visit("steps", run.steps);
+  visit("time_step_s", run.time_step_s);
+  visit("lowest_time_step_s", run.lowest_time_step_s);
+  visit("critical_time_step_s", run.critical_time_step_s);
+  visit("step_estimates", run.step_estimates);
+  visit("mass_factor", run.mass_factor);
+  visit("scaled_particles", run.scaled_particles);
+  visit("run_time_s", run.run_time_s);
+  visit("phases_s", run.phases_s);
+  visit("bond_updates_per_s", run.bond_updates_per_s);
+  visit("bond_pass_per_s", run.bond_pass_per_s);
+  visit("energy_error", run.energy_error);
+  visit("rate_error", run.rate_error);
+  visit("step_error", run.step_error);
+  visit("sampling_error", run.sampling_error);
+  visit("kinetic_ratio", run.kinetic_ratio);
+  visit("platen_mismatch", run.platen_mismatch);
+  visit("state_hash", run.state_hash);
+  visit("stopped_by", run.stopped_by);
+  visit("warnings", run.warnings);
+}
+
+/// What only some tests measure: keys that are absent elsewhere.
+template <class Run, class Visit>
+void for_each_rare_field(Run& run, Visit&& visit) {
+  visit("strip_corrected_strength_Pa", run.strip_corrected_strength_Pa);
+  visit("first_drop_stress_Pa", run.first_drop_stress_Pa);
+  visit("first_cracks", run.first_cracks);
+  visit("bulk_modulus_Pa", run.bulk_modulus_Pa);
+  visit("cycles", run.cycles);
+  visit("confining_stress_at_peak_Pa", run.confining_stress_at_peak_Pa);
+  visit("material_values", run.material_values);
+}
+
+using Seconds = std::vector<std::pair<std::string, double>>;
+
+Json of(const Seconds& phases) {
+  Json all = Json::object();
+  for (const auto& [name, seconds] : phases) all[name] = seconds;
+  return all;
+}
+Json of(const std::vector<CycleSummary>& cycles) {
+  Json all = Json::array();
+  for (const CycleSummary& cycle : cycles) all.push_back(of(cycle));
+  return all;
+}
+template <class T>
+Json of(const T& value) {
+  return value;
+}
+
+bool is_absent(const std::optional<double>& value) { return !value; }
+template <class T>
+bool is_absent(const T& value) {
+  return value.empty();
+}
+
+Json of(const RunSummary& run) {
+  Json all = Json::object();
+  for_each_field(run, [&](const char* key, const auto& value) { all[key] = of(value); });
+  for_each_rare_field(run, [&](const char* key, const auto& value) {
+    if (!is_absent(value)) all[key] = of(value);
+  });
+  return all;
+}
+
+// A number that was not finite comes back as one that is none.
+void take(const Json& json, double& value) {
+  value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+void take(const Json& json, std::optional<double>& value) {
+  value = json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+void take(const Json& json, Seconds& phases) {
+  for (const auto& [name, seconds] : json.items()) phases.emplace_back(name, seconds.get<double>());
+}
+void take(const Json& json, std::vector<CycleSummary>& cycles) {
+  for (const Json& one : json) {
+    CycleSummary& cycle = cycles.emplace_back();
+    take(one.at("strain"), cycle.strain);
+    take(one.at("permanent_strain"), cycle.permanent_strain);
+    take(one.at("unloading_modulus_Pa"), cycle.unloading_modulus_Pa);
+    take(one.at("reloading_modulus_Pa"), cycle.reloading_modulus_Pa);
+  }
+}
+template <class T>
+void take(const Json& json, T& value) {
+  value = json.get<T>();
+}
+
+RunSummary run_of(const Json& json) {
+  RunSummary run;
+  for_each_field(run, [&](const char* key, auto& value) { take(json.at(key), value); });
+  for_each_rare_field(run, [&](const char* key, auto& value) {
+    if (json.contains(key)) take(json.at(key), value);
+  });
+  return run;
+}
+
+Json of(const MohrCoulomb& line) {
+  return {{"cohesion_Pa", line.cohesion_Pa},
+          {"friction_angle_deg", line.friction_angle_deg},
+          {"residual_Pa", line.residual_Pa},
+          {"peaks", line.peaks}};
+}
+
+}  // namespace
+
+std::string runs_text(const std::vector<RunSummary>& runs) {
+  Json all = Json::array();
+  for (const RunSummary& run : runs) all.push_back(of(run));
+  return all.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<RunSummary> read_runs(const std::string& text) {
+  std::vector<RunSummary> runs;
+  for (const Json& json : Json::parse(text)) runs.push_back(run_of(json));
+  return runs;
+}
+
+std::size_t finished_runs(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  const Json all = Json::parse(in, nullptr, false);
+  if (!all.is_object() || !all.contains("runs") || !all["runs"].is_array()) return 0;
+  std::size_t finished = 0;
+  for (const Json& run : all["runs"])
+    finished += run.is_object() && run.value("stopped_by", "interrupted") != "interrupted";
+  return finished;
+}
+
+void write_summary(const std::filesystem::path& file, const SeriesSummary& series) {
+  Json runs = Json::array();
+  for (const RunSummary& run : series.runs) runs.push_back(of(run));
+  Json all{{"test", series.test},
+           {"version", series.version},
+           {"threads", series.threads},
+           {"ranks", series.ranks}};
+  if (series.mohr_coulomb) all["mohr_coulomb"] = of(*series.mohr_coulomb);
+  if (!series.no_mohr_coulomb.empty()) all["no_mohr_coulomb"] = series.no_mohr_coulomb;
+  all["runs"] = std::move(runs);
+  // replace: a text that is not UTF-8 (a file's name) must not lose the results of hours
+  atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+}
+
+}  // namespace breccia

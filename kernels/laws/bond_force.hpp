@@ -1,0 +1,62 @@
+// The force of one bond: kinematics, the law, damping.
+#pragma once
+#include "kernels/laws/bond_law.hpp"
+#include "kernels/laws/pair_kinematics.hpp"
+
+namespace breccia {
+
+/// What a bond does at the end of a step.
+template <class R>
+struct BondAction {
+  R spring;        ///< N, along the normal, tension positive: the law's force
+  R along;         ///< N, the same with the dashpot
+  R shear_factor;  ///< g of k_s
+  Vec<R> shear;    ///< N, on lo
+  Vec<R> rotated;  ///< N, the history of shear as it came into the step, turned with the pair
+};
+
+/// N, on lo.
+template <class R>
+inline Vec<R> force_on_lo(const BondAction<R>& action, const Pair<R>& pair) {
+  return action.along * pair.normal + action.shear;  // (P18)
+}
+
+/// Advances the history of a bond, given the motion of its ends over the step.
+template <Features features, class Law, class R>
+inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, const Pair<R>& pair,
+                                 BondHistory<R>& h) {
+  const R u = pair.distance - bond.rest_length;  // (P26)
+  const Vec<R> rotated = rotate_with_pair<features.rotation>(h.shear, pair);
+  h.shear = rotated + (R(law.shear_ratio) * bond.stiffness) * pair.slip;  // (B20) (P37)
+  R elastic = u;
+  if constexpr (features.plasticity) {
+    h.plastic_stretch = plastic_stretch(law, bond, u, h.plastic_stretch);
+    elastic = u - h.plastic_stretch;
+  }
+  BondForce<R> f;
+  if constexpr (features.breakage)
+    f = breakable_force<features.criterion == Criterion::coupled>(law.failure, law.young,
+                                                                  limits_of(law, bond), bond, elastic, h);
+  else
+    f = {bond.stiffness * elastic, R(1.0), R(1.0), h.shear};
+
+  R total = f.normal;
+  if constexpr (features.contact_damping) {
+    // (P29)
+    total += f.damper * bond.damping * pair.rate;
+    if constexpr (features.breakage) {  // a broken bond never pulls (B12)
+      const auto broken = h.damage_normal >= R(1.0) || h.damage_shear >= R(1.0);
+      total = select(broken && total > R(0.0), R(0.0), total);
+    }
+  }
+  return {f.normal, total, f.shear_factor, f.shear, rotated};
+}
+
+/// The force alone.
+template <Features features, class Law, class R>
+inline Vec<R> bond_force(const Law& law, const BondConstants<R>& bond, const Pair<R>& pair,
+                         BondHistory<R>& h) {
+  return force_on_lo(bond_action<features>(law, bond, pair, h), pair);
+}
+
+}  // namespace breccia

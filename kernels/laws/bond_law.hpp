@@ -1,0 +1,45 @@
+// What a bond law is made of. A law is a struct of constants with
+//   name, takes      its word in a case, and the shared keys of [material] that it uses
+//   own              keys that it alone has
+//   defaults        what a case with this law gets where it does not say otherwise ("bonds.area", ...)
+//   feature_sets     the scenes that a kernel is built for, from the leanest to the fullest
+//   of(material)     its constants from a material
+//   young, shear_ratio, failure
+// and, beside it, plastic_stretch(law, bond, u, before) where it has plasticity; `stiffness_of` and
+// `limits_of` are overloaded where k_n is not E A/L or strengths are not stresses. It is registered by its
+// line in kernels/laws/bond_laws.hpp.
+#pragma once
+#include <limits>
+#include <string_view>
+
+#include "kernels/laws/failure.hpp"
+
+namespace breccia {
+
+/// A key of [material] that one law alone has; read into Material::own.
+struct LawParameter {
+  std::string_view key, unit;  ///< unit: SI, "1" for a number
+  double low = 0;              ///< smallest value that makes sense
+  std::string_view default_text;   ///< default as one writes it; empty: must be given
+  std::string_view meaning;
+  bool above = false;  ///< low itself makes no sense
+};
+
+/// What a case gets where it does not say otherwise.
+struct LawDefault {
+  std::string_view key, value;
+};
+
+/// k_n, N/m, of a bond with this area and length. (P30)
+template <class Law>
+inline double stiffness_of(const Law& law, double area, double length) {
+  return law.young * area / length;
+}
+
+/// Largest tension and cohesion of a bond, N: strengths are stresses.
+template <class Law, class R>
+inline BondLimits<R> limits_of(const Law& law, const BondConstants<R>& bond) {
+  return limits_of(law.failure, bond);
+}
+
+}  // namespace breccia

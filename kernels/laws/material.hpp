@@ -1,0 +1,34 @@
+// What a specimen is made of, as an engineer states it. SI.
+#pragma once
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "kernels/laws/features.hpp"
+
+namespace breccia {
+
+/// Parameters of a bond law for one confinement; their names are those of Onate et al. 2015, tables 2 to 6.
+/// Which of them a law takes, its header says.
+struct Material {
+  double density = 0;           ///< kg/m^3, of the spheres
+  double young_modulus = 0;     ///< Pa, of the specimen
+  double poisson_ratio = 0;     ///< 1
+  double friction_static = 0;   ///< mu_1: how much shear strength grows with pressure on the bond
+  double friction_dynamic = 0;  ///< mu_2: Coulomb friction of broken bonds and contacts
+  double tensile_strength = 0;  ///< Pa, sigma_t
+  double shear_strength = 0;    ///< Pa, tau_f
+  std::array<double, 3> limit_compressive_stress{};          ///< Pa, LCS 1, 2, 3, rising
+  std::array<double, 3> stiffness_reduction{1.0, 1.0, 1.0};  ///< YRC 1, 2, 3: slope beyond a limit is E/YRC
+  double damage_normal = 0;  ///< delta_n: length of the softening branch over the elastic one (P47)
+  double damage_shear = 0;   ///< delta_s
+  std::optional<double> fracture_energy_normal;  ///< J/m^2, G_I: instead of damage_normal
+  std::optional<double> fracture_energy_shear;   ///< J/m^2, G_II: instead of damage_shear
+  std::string law = "dempack";
+  Criterion criterion = Criterion::uncoupled;
+  std::map<std::string, double, std::less<>> own;  ///< parameters that one law alone has, by their keys
+};
+
+}  // namespace breccia

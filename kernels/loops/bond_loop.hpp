@@ -1,0 +1,224 @@
+// The loop over bonds in batches of a register: motion of the ends, law, forces. The same for every way of
+// storing a bond: a `Bonds` has
+//   load<Column>(b), store<Column>(b, values)   a quantity of bonds [b, b + width)
+//   lo(k), hi(k)                                rows of the ends of bond k
+//   size()                                      bonds stored
+// Included by files that are compiled per instruction set only.
+#pragma once
+#include <algorithm>
+
+#include "kernels/loops/bond_column.hpp"
+#include "kernels/loops/bond_ledger.hpp"
+#include "kernels/loops/bond_pass.hpp"
+#include "kernels/loops/scatter_block.hpp"
+#include "kernels/math/lane_rows.hpp"
+
+namespace breccia::BRECCIA_ISA {
+namespace {
+
+inline constexpr std::size_t ahead = 32;  // bonds, some 400 ns
+inline constexpr std::size_t stride = sizeof(BondLoad) / sizeof(Vec3);
+static_assert(bond_batch % width == 0 && ForceBuffer::capacity % bond_batch == 0);
+
+using Column = BondColumn;
+
+/// Rows of the particles, all as far apart: a row is found once for the three.
+struct ParticleRows {
+  const Vec3 *position, *velocity, *spin;
+  std::size_t stride;
+
+  explicit ParticleRows(const BondPassIn& in)
+      : position(in.position.data()),
+        velocity(in.velocity.data()),
+        spin(in.spin.data()),
+        stride(in.position.stride()) {}
+};
+
+/// Rows are subtracted before they are turned into columns: four turns instead of six.
+template <Features features, class Bonds>
+[[gnu::always_inline]] inline Ends<Lanes> ends_of_batch(const ParticleRows& p, const Bonds& bonds,
+                                                        std::size_t b) {
+  const auto lo = [&](const Vec3* rows, std::size_t k) -> const Four& {
+    return four(rows[bonds.lo(b + k) * p.stride]);
+  };
+  const auto hi = [&](const Vec3* rows, std::size_t k) -> const Four& {
+    return four(rows[bonds.hi(b + k) * p.stride]);
+  };
+  Ends<Lanes> ends;
+  ends.branch = columns_of([&](std::size_t k) { return hi(p.position, k) - lo(p.position, k); });
+  ends.velocity = columns_of([&](std::size_t k) { return hi(p.velocity, k) - lo(p.velocity, k); });
+  if constexpr (features.rotation) {
+    ends.spin_sum = columns_of([&](std::size_t k) { return lo(p.spin, k) + hi(p.spin, k); });
+    ends.spin_difference = columns_of([&](std::size_t k) { return lo(p.spin, k) - hi(p.spin, k); });
+  }
+  return ends;
+}
+
+/// Asks for the rows of the far ends of a later batch: the stream of bonds pushes particles out of the near
+/// caches, and the processor cannot guess which come next. Bonds are sorted by their lower row, so the other
+/// end has just been used.
+template <Features features, class Bonds>
+[[gnu::always_inline]] inline void prefetch_ends(const ParticleRows& p, const Bonds& bonds, const Scatter& to,
+                                                 std::size_t b) {
+  for (std::size_t k = b; k < b + width; ++k) {
+    const std::size_t row = std::max(bonds.lo(k), bonds.hi(k)) * p.stride;
+    __builtin_prefetch(&p.position[row]);
+    __builtin_prefetch(&p.velocity[row]);
+    if constexpr (features.rotation) __builtin_prefetch(&p.spin[row]);
+  }
+  if (to.mode != ScatterMode::own) return;
+  for (std::size_t k = b; k < b + width; ++k) {
+    const Index row = std::max(to.to_lo[k], to.to_hi[k]);
+    __builtin_prefetch(&to.force[row], 1);
+    if constexpr (features.rotation) __builtin_prefetch(&to.torque[row], 1);
+  }
+}
+
+/// Which lanes of a batch broke in this step goes into the notes; rare, so out of the loop's way.
+template <Features features>
+[[gnu::noinline]] void note_breaks(const BondHistory<Lanes> now, const BondHistory<Lanes> before,
+                                   std::size_t b, BreakNotes& notes) {
+  for (std::size_t k = 0; k < width; ++k) {
+    const bool was = before.damage_normal[k] >= 1.0 || before.damage_shear[k] >= 1.0;
+    const bool is = now.damage_normal[k] >= 1.0 || now.damage_shear[k] >= 1.0;
+    if (was || !is) continue;
+    if (notes.count < notes.room.size())
+      notes.room[notes.count] = {static_cast<Index>(b + k),
+                                 {before.shear.x[k], before.shear.y[k], before.shear.z[k]},
+                                 features.plasticity ? static_cast<double>(before.plastic_stretch[k]) : 0.0,
+                                 before.damage_normal[k],
+                                 before.damage_shear[k]};
+    ++notes.count;
+  }
+}
+
+template <Features features, class Bonds>
+[[gnu::always_inline]] inline BondHistory<Lanes> history_of(const Bonds& bonds, std::size_t b) {
+  BondHistory<Lanes> h;
+  h.shear = {bonds.template load<Column::shear_x>(b), bonds.template load<Column::shear_y>(b),
+             bonds.template load<Column::shear_z>(b)};
+  if constexpr (features.plasticity) h.plastic_stretch = bonds.template load<Column::plastic_stretch>(b);
+  if constexpr (features.breakage) {
+    h.damage_normal = bonds.template load<Column::damage_normal>(b);
+    h.damage_shear = bonds.template load<Column::damage_shear>(b);
+  }
+  return h;
+}
+
+/// Most batches neither yield nor break in a step: what stays is not written.
+template <Features features, class Bonds>
+[[gnu::always_inline]] inline void keep_history(const Bonds& bonds, const BondHistory<Lanes>& h,
+                                                const BondHistory<Lanes>& before, std::size_t b,
+                                                BreakNotes* notes) {
+  bonds.template store<Column::shear_x>(b, h.shear.x);
+  bonds.template store<Column::shear_y>(b, h.shear.y);
+  bonds.template store<Column::shear_z>(b, h.shear.z);
+  if constexpr (features.plasticity)
+    if (any(h.plastic_stretch != before.plastic_stretch))
+      bonds.template store<Column::plastic_stretch>(b, h.plastic_stretch);
+  if constexpr (features.breakage)
+    if (any(h.damage_normal != before.damage_normal || h.damage_shear != before.damage_shear)) {
+      bonds.template store<Column::damage_normal>(b, h.damage_normal);
+      bonds.template store<Column::damage_shear>(b, h.damage_shear);
+      if (notes) note_breaks<features>(h, before, b, *notes);
+    }
+}
+
+[[gnu::always_inline]] inline auto damaged_lanes(const BondHistory<Lanes>& h) {
+  return h.damage_normal > 0.0 || h.damage_shear > 0.0;
+}
+
+template <Features features>
+[[gnu::always_inline]] inline bool is_damaged(const BondHistory<Lanes>& h) {
+  if constexpr (features.breakage)
+    return any(damaged_lanes(h));
+  else
+    return false;
+}
+
+/// Losses of a batch, added to those of its block; forces that do not follow from the state are kept for the
+/// next step.
+template <Features features, class Law, class Bonds>
+[[gnu::always_inline]] inline void keep_losses(const Law& law, const BondConstants<Lanes>& bond,
+                                               const Ends<Lanes>& ends, const Pair<Lanes>& pair, double dt,
+                                               const BondHistory<Lanes>& before, const BondHistory<Lanes>& h,
+                                               const BondAction<Lanes>& action, const Bonds& bonds,
+                                               std::size_t b, BondLosses<Lanes>& sum) {
+  const Lanes stretch = elongation(ends, pair, dt);
+  Lanes viscous(0.0);
+  if constexpr (features.contact_damping) viscous = bonds.template load<Column::viscous_force>(b);
+  LastForces<Lanes> last = forces_before<features>(bond, pair, stretch, before, viscous);
+  if (is_damaged<features>(before)) {
+    // bond by bond: which others share a register changes with the processor and the number of ranks
+    const auto damaged = damaged_lanes(before);
+    last.spring = select(damaged, bonds.template load<Column::spring_force>(b), last.spring);
+    last.shear_factor = select(damaged, bonds.template load<Column::shear_factor>(b), last.shear_factor);
+  }
+  const BondLosses<Lanes> loss = losses_of_step<features>(law, bond, pair, stretch, before, h, action, last);
+  if constexpr (features.contact_damping) bonds.template store<Column::viscous_force>(b, last.viscous);
+  if (is_damaged<features>(h)) {
+    bonds.template store<Column::spring_force>(b, last.spring);
+    bonds.template store<Column::shear_factor>(b, last.shear_factor);
+  }
+  sum.plastic += loss.plastic;
+  sum.viscous += loss.viscous;
+  sum.damage += loss.damage;
+  sum.friction += loss.friction;
+  sum.failure += loss.failure;
+}
+
+[[gnu::always_inline]] inline void add_lanes(const BondLosses<Lanes>& sum, BondLosses<double>& to) {
+  using std::experimental::reduce;
+  to.plastic += reduce(sum.plastic);
+  to.viscous += reduce(sum.viscous);
+  to.damage += reduce(sum.damage);
+  to.friction += reduce(sum.friction);
+  to.failure += reduce(sum.failure);
+}
+
+/// Bonds [first, last). To be flattened by the caller: with several laws in one file the compiler stops
+/// inlining a law into its loop by itself, and wide registers then travel through memory (19 ns a bond
+/// instead of 13).
+/// @tparam ledger  losses are summed block by block, `losses[b/64]`; ranges then begin at whole blocks, so
+/// that
+///                 no sum depends on how the bonds are shared out
+template <Features features, bool ledger, class Law, class Bonds>
+[[gnu::always_inline]] inline void bond_loop(const Law& law, double dt, const ParticleRows& p,
+                                             const Bonds& bonds, std::size_t first, std::size_t last,
+                                             const Scatter& to, BreakNotes* notes,
+                                             std::span<BondLosses<double>> losses = {}) {
+  ForceBuffer block;
+  while (first < last) {
+    const std::size_t count = last - first < ForceBuffer::capacity ? last - first : ForceBuffer::capacity;
+    [[maybe_unused]] BondLosses<Lanes> loss;
+    for (std::size_t k = 0; k < count; k += width) {
+      const std::size_t b = first + k;
+      if (b + ahead < bonds.size()) prefetch_ends<features>(p, bonds, to, b + ahead);
+      Lanes arm_offset(0.0);
+      if constexpr (features.rotation) arm_offset = bonds.template load<Column::arm_offset>(b);
+      const Ends<Lanes> ends = ends_of_batch<features>(p, bonds, b);
+      const Pair<Lanes> pair = relative_motion<features.rotation>(ends, arm_offset, dt);
+      BondConstants<Lanes> bond{bonds.template load<Column::rest_length>(b),
+                                bonds.template load<Column::area>(b),
+                                bonds.template load<Column::strength_area>(b),
+                                bonds.template load<Column::stiffness>(b), Lanes(0.0)};
+      if constexpr (features.contact_damping) bond.damping = bonds.template load<Column::damping>(b);
+      const BondHistory<Lanes> before = history_of<features>(bonds, b);
+      BondHistory<Lanes> h = before;
+      const BondAction<Lanes> action = bond_action<features>(law, bond, pair, h);
+      const Vec<Lanes> force = force_on_lo(action, pair);
+      keep_history<features>(bonds, h, before, b, notes);
+      if constexpr (ledger)
+        keep_losses<features>(law, bond, ends, pair, dt, before, h, action, bonds, b, loss);
+      store_rows(force, &block.load[k].force, stride);
+      if constexpr (features.rotation)
+        store_rows(pair.distance * cross(pair.normal, force), &block.load[k].moment, stride);
+    }
+    if constexpr (ledger) add_lanes(loss, losses[first / ForceBuffer::capacity]);
+    scatter_block(to, block, first, count);
+    first += count;
+  }
+}
+
+}  // namespace
+}  // namespace breccia::BRECCIA_ISA

@@ -1,0 +1,75 @@
+// Chooses the wide loops: by the scene's features and the processor, once at start.
+#include <stdexcept>
+
+#include "kernels/loops/bond_pass.hpp"
+#include "kernels/loops/integrate.hpp"
+#include "kernels/loops/kernel_list.hpp"
+#include "kernels/loops/undamaged_energy.hpp"
+
+namespace breccia {
+
+namespace x86_64 {
+extern const std::array<BondPass, kernel_list.size()> passes;
+void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
+}  // namespace x86_64
+namespace x86_64_v3 {
+extern const std::array<BondPass, kernel_list.size()> passes;
+void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
+}  // namespace x86_64_v3
+namespace x86_64_v4 {
+extern const std::array<BondPass, kernel_list.size()> passes;
+void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
+}  // namespace x86_64_v4
+
+std::string_view name_of(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::x86_64:
+      return "x86-64";
+    case InstructionSet::x86_64_v3:
+      return "x86-64-v3 (AVX2)";
+    case InstructionSet::x86_64_v4:
+      return "x86-64-v4 (AVX-512)";
+  }
+  return "?";
+}
+
+InstructionSet best_instruction_set() {
+  if (__builtin_cpu_supports("x86-64-v4")) return InstructionSet::x86_64_v4;
+  if (__builtin_cpu_supports("x86-64-v3")) return InstructionSet::x86_64_v3;
+  return InstructionSet::x86_64;
+}
+
+IntegrateFree integrate_free_for(InstructionSet set) {
+  return built_for<IntegrateFree>(set, x86_64::integrate_free, x86_64_v3::integrate_free,
+                                  x86_64_v4::integrate_free);
+}
+
+WorkOfFree work_of_free_for(InstructionSet set) {
+  return built_for<WorkOfFree>(set, x86_64::work_of_free, x86_64_v3::work_of_free, x86_64_v4::work_of_free);
+}
+
+UndamagedEnergy undamaged_energy_for(InstructionSet set) {
+  return built_for<UndamagedEnergy>(set, x86_64::undamaged_energy, x86_64_v3::undamaged_energy,
+                                    x86_64_v4::undamaged_energy);
+}
+
+Features built_features(const BondLaw& law, const Features& asked, const LoopKind& kind) {
+  for (const KernelKind& k : kernel_list)
+    if (k.law == law.index() && k.features.covers(asked) && k.kind == kind) return k.features;
+  throw std::invalid_argument("no bond kernel of this law covers the scene's features");
+}
+
+BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set, const LoopKind& kind) {
+  for (std::size_t k = 0; k < kernel_list.size(); ++k)
+    if (kernel_list[k].law == law.index() && kernel_list[k].features == built && kernel_list[k].kind == kind)
+      return built_for(set, x86_64::passes, x86_64_v3::passes, x86_64_v4::passes)[k];
+  throw std::invalid_argument("no bond kernel is built for these features in this kind of loop");
+}
+
+}  // namespace breccia

@@ -1,0 +1,65 @@
+// Central differences with velocities at half steps and non-viscous global damping: docs/model.md,
+// "Particles" and "Global damping"; Onate et al. 2015, eqs. 5-10, 39, 40.
+#pragma once
+#include <cstddef>
+#include <span>
+
+#include "kernels/math/instruction_set.hpp"
+#include "kernels/math/strided.hpp"
+#include "kernels/math/vec3.hpp"
+
+namespace breccia {
+
+/// Fractions of the force (torque) that always oppose the velocity (spin).
+struct GlobalDamping {
+  double translation = 0, rotation = 0;
+};
+
+/// F - alpha |F| v/|v|; F where v is zero. (P39) (P40)
+inline Vec3 damped(const Vec3& force, const Vec3& velocity, double alpha) {
+  const double speed2 = dot(velocity, velocity);
+  if (!(speed2 > 0.0)) return force;
+  return force - (alpha * std::sqrt(dot(force, force) / speed2)) * velocity;
+}
+
+struct Motion {
+  Strided<Vec3> position, velocity, spin;  ///< spin is empty where nothing spins
+  Strided<Vec3> force, torque;             ///< read, then zeroed for the next step
+  std::span<const double> mass, radius;
+  double inertia_factor = 0.4;  ///< I = factor m r^2
+  bool spins = true;            ///< false: the scene has no rotation, spins stay zero
+};
+
+/// Kick and drift of rows [first, last) that move freely.
+using IntegrateFree = void (*)(const Motion& m, std::size_t first, std::size_t last, double dt,
+                               const GlobalDamping& damping);
+IntegrateFree integrate_free_for(InstructionSet set);
+
+/// J, of the kicks to come: kinetic energy between the velocities before and after them, and what global
+/// damping takes over the half steps before and after (B48) (B56).
+struct MotionWork {
+  double kinetic = 0, motion_this = 0, motion_next = 0, spin_this = 0, spin_next = 0;
+};
+
+/// The same rows, before they are kicked; nothing changes.
+using WorkOfFree = MotionWork (*)(const Motion& m, std::size_t first, std::size_t last, double dt,
+                                  const GlobalDamping& damping);
+WorkOfFree work_of_free_for(InstructionSet set);
+
+/// Motion that a body's rows share: z is prescribed; x and y too, unless they are free. (B64)
+struct HeldMotion {
+  Vec3 velocity;              ///< m/s
+  bool lateral_free = false;  ///< x and y follow the forces
+};
+
+/// Rows of a platen or a shear box; spins are free.
+void integrate_held(const Motion& m, std::size_t first, std::size_t last, double dt,
+                    const GlobalDamping& damping, const HeldMotion& held);
+
+/// I = factor m r^2: of a sphere or a disc. (B2)
+inline constexpr double sphere_inertia_factor = 0.4, disc_inertia_factor = 0.5;
+
+/// Moment of inertia, kg m^2.
+inline double inertia(double factor, double mass, double radius) { return factor * mass * radius * radius; }
+
+}  // namespace breccia

@@ -1,0 +1,99 @@
+// The integration of free particles, compiled once per instruction set like the bond pass. A particle's force
+// and torque, velocity and spin go through the same operations, so they go side by side.
+#include "kernels/loops/integrate.hpp"
+#include "kernels/math/four.hpp"
+
+namespace breccia::BRECCIA_ISA {
+namespace {
+
+using Two [[gnu::vector_size(16)]] = double;  // of the motion, of the spin
+
+/// (a . c, b . d), of three components each.
+[[gnu::always_inline]] inline Two products(const Four& a, const Four& c, const Four& b, const Four& d) {
+  const Four ac = a * c, bd = b * d;
+  return __builtin_shufflevector(ac, bd, 0, 4) + __builtin_shufflevector(ac, bd, 1, 5) +
+         __builtin_shufflevector(ac, bd, 2, 6);
+}
+
+[[gnu::always_inline]] inline Two square_roots(const Two& a) { return __builtin_ia32_sqrtpd(a); }
+
+/// A particle before and after its forces have kicked it: motion and spin.
+struct Kicked {
+  Four velocity, spin, new_velocity, new_spin;
+  Two speeds;   ///< squares of velocity and spin before
+  Two held;     ///< force of the global damping over the velocity, which it opposes
+  Two inertia;  ///< kg, kg m^2
+};
+
+template <bool spins>
+[[gnu::always_inline]] inline Kicked kicked(const Motion& m, std::size_t row, double dt,
+                                            const GlobalDamping& damping) {
+  Kicked k;
+  const Four rest{};
+  const Four force = four(m.force[row]), torque = spins ? four(m.torque[row]) : rest;
+  k.velocity = four(m.velocity[row]), k.spin = spins ? four(m.spin[row]) : rest;
+  k.speeds = products(k.velocity, k.velocity, k.spin, k.spin);
+  const Two moves = k.speeds > Two{} ? square_roots(products(force, force, torque, torque) / k.speeds)
+                                     : Two{};  // 0/0 where at rest
+  // (P39) (P40)
+  k.held = Two{damping.translation, damping.rotation} * moves;
+  const double mass = m.mass[row];
+  k.inertia = Two{mass, spins ? m.inertia_factor * mass * m.radius[row] * m.radius[row] : mass};
+  const Two kick = Two{dt, dt} / k.inertia;
+  k.new_velocity = k.velocity + kick[0] * (force - k.held[0] * k.velocity);  // (P1) (P6)
+  // (P2) (P9)
+  k.new_spin = spins ? k.spin + kick[1] * (torque - k.held[1] * k.spin) : rest;
+  return k;
+}
+
+template <bool spins>
+void kick_and_drift(const Motion& m, std::size_t first, std::size_t last, double dt,
+                    const GlobalDamping& damping) {
+  for (std::size_t row = first; row < last; ++row) {
+    const Kicked k = kicked<spins>(m, row, dt, damping);
+    four(m.velocity[row]) = k.new_velocity;
+    four(m.position[row]) += dt * k.new_velocity;  // (P7)
+    four(m.force[row]) = Four{};
+    if constexpr (spins) {
+      four(m.spin[row]) = k.new_spin;
+      four(m.torque[row]) = Four{};
+    }
+  }
+}
+
+template <bool spins>
+MotionWork work_of_kicks(const Motion& m, std::size_t first, std::size_t last, double dt,
+                         const GlobalDamping& damping) {
+  Two twice_kinetic{}, held_this{}, held_next{};
+  for (std::size_t row = first; row < last; ++row) {
+    const Kicked k = kicked<spins>(m, row, dt, damping);
+    const Two across = products(k.velocity, k.new_velocity, k.spin, k.new_spin);
+    twice_kinetic += k.inertia * across;  // (B48)
+    // (B56)
+    held_this += k.held * k.speeds;
+    held_next += k.held * across;
+  }
+  const double half = 0.5 * dt;
+  return {0.5 * (twice_kinetic[0] + twice_kinetic[1]), half * held_this[0], half * held_next[0],
+          half * held_this[1], half * held_next[1]};
+}
+
+}  // namespace
+
+void integrate_free(const Motion& m, std::size_t first, std::size_t last, double dt,
+                    const GlobalDamping& damping) {
+  if (!m.spin.empty() && m.spins) {
+    kick_and_drift<true>(m, first, last, dt, damping);
+    return;
+  }
+  kick_and_drift<false>(m, first, last, dt, damping);
+  for (std::size_t row = first; row < last && !m.torque.empty(); ++row) four(m.torque[row]) = Four{};
+}
+
+MotionWork work_of_free(const Motion& m, std::size_t first, std::size_t last, double dt,
+                        const GlobalDamping& damping) {
+  return !m.spin.empty() && m.spins ? work_of_kicks<true>(m, first, last, dt, damping)
+                                    : work_of_kicks<false>(m, first, last, dt, damping);
+}
+
+}  // namespace breccia::BRECCIA_ISA
