@@ -150,8 +150,11 @@ std::string describe_keys(const std::string& test) {
     text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), describe_values(key),
                         describe_default(key, test), key.meaning);
     if (key.name == "material.preset" && accepts(*find_key("test.confinement"), test))
-      text += fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
-                          "a table [[material.at]]: keys of the material for one confinement");
+      text +=
+          fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
+                      "a table [[material.at]]: keys of the material for one confinement; between two of "
+                      "them, and zero, values lie on straight lines; beyond the last one that one's hold, "
+                      "with a warning");
   }
   return text;
 }
