@@ -79,11 +79,11 @@ std::vector<std::string> unusual_defaults(const Layer& layer, const Layer& mater
     const auto taken = of.find(key.name);
     if (taken == of.end() || !taken->second.place.empty()) continue;
     const Standard standard = defaults.of(key);
-    if (default_text.of.empty()) continue;
+    if (standard.of.empty()) continue;
     const std::string value = write_value(key, taken->second.reading);
     lines.push_back(key.law.empty() ? fmt::format("{} = {} ({}; otherwise {})", key.name, value,
-                                                  default_text.of, key.default_text)
-                                    : fmt::format("{} = {} ({})", key.name, value, default_text.of));
+                                                  standard.of, key.default_text)
+                                    : fmt::format("{} = {} ({})", key.name, value, standard.of));
   }
   return lines;
 }
