@@ -50,8 +50,7 @@ void warn_of_pressure(RunSummary& run) {
   if (std::abs(held - asked) <= 0.05 * asked) return;
   run.warnings.push_back(
       fmt::format("confinement: {:.4g} MPa were asked for, {:.4g} MPa are held by the specimen at the end of "
-                  "stage 1; the "
-                  "lateral surface is not pressed as it should be",
+                  "stage 1; the lateral surface is not pressed as it should be",
                   asked * 1e-6, held * 1e-6));
 }
 
@@ -65,8 +64,7 @@ void warn_of_modulus(const Material& material, RunSummary& run) {
   if (ratio <= 1.1 && (ratio >= 0.9 || run.confinement_Pa > 0.0)) return;
   run.warnings.push_back(
       fmt::format("young_modulus: the curve has {:.4g} GPa, {:.0f} % {} than the material's {:.4g} GPa; "
-                  "strengths go with "
-                  "it",
+                  "strengths go with it",
                   *run.young_modulus_Pa * 1e-9, 100.0 * std::abs(ratio - 1.0), ratio > 1.0 ? "more" : "less",
                   asked * 1e-9));
 }

@@ -162,27 +162,32 @@ void check_inside(const Specimen& specimen, const Body& body, Space space, const
   if (strays == count)
     fail<BadInput>(
         "{}: sphere {} is a stray one: it hangs on nothing, {} outside the {} ({} such of {} spheres); "
-        "remove "
-        "it",
+        "remove it",
         place_of(specimen, *worst), worst->id, millimetres(farthest), describe(body, space), count,
         specimen.spheres.size());
+  const Box box = box_around(specimen, of_body);
+  const Vec3 extent = box.high - box.low;
   fail<BadInput>(
       "{}: the centre of sphere {} lies {} outside the {} ({} of {} spheres beyond the {} allowed); check "
-      "specimen.diameter, height, axis and centre{}",
+      "specimen.diameter, height, axis and centre: along the axis the spheres fill {}, across it {}{}{}",
       place_of(specimen, *worst), worst->id, millimetres(farthest), describe(body, space), count,
-      specimen.spheres.size(), millimetres(allowed), unit_hint(specimen, body, space));
+      specimen.spheres.size(), millimetres(allowed), millimetres(extent.z), millimetres(extent.x),
+      space == Space::two_d ? "" : " and " + millimetres(extent.y), unit_hint(specimen, body, space));
 }
 
-/// Spheres that fill a small part of the body in each direction, or are too large for it.
-void check_filled(const Specimen& specimen, const Body& body, Space space) {
-  const std::string hint = unit_hint(specimen, body, space);
+/// Radii in another unit than centres.
+void check_fit_in(const Specimen& specimen, const Body& body, Space space) {
   const double smallest =
       std::min({body.diameter, body.shape == Shape::box && space != Space::two_d ? body.depth : body.diameter,
                 space == Space::two_d && body.shape != Shape::box ? body.diameter : body.height});
   for (const SpecimenSphere& s : specimen.spheres)
     if (2.0 * s.radius > 1.3 * smallest)
-      fail<BadInput>("{}: sphere {} has radius {}, too large for the {}; check the unit of its radius{}",
-                     place_of(specimen, s), s.id, millimetres(s.radius), describe(body, space), hint);
+      fail<BadInput>("{}: sphere {} has radius {}, too large for the {}; check the unit of its radius",
+                     place_of(specimen, s), s.id, millimetres(s.radius), describe(body, space));
+}
+
+/// Spheres that fill a small part of the body in each direction.
+void check_filled(const Specimen& specimen, const Body& body, Space space) {
   const Box box = box_around(specimen, {});
   const Vec3 extent = box.high - box.low;
   const double height = space == Space::two_d && body.shape != Shape::box ? body.diameter : body.height;
@@ -190,7 +195,8 @@ void check_filled(const Specimen& specimen, const Body& body, Space space) {
     fail<BadInput>(
         "{}: all spheres lie within {} x {}, in a {}; check specimen.diameter and height, and the unit "
         "of the file{}",
-        specimen.source, millimetres(extent.x), millimetres(extent.z), describe(body, space), hint);
+        specimen.source, millimetres(extent.x), millimetres(extent.z), describe(body, space),
+        unit_hint(specimen, body, space));
 }
 
 /// Sets y to 0 where it is the same for all discs.
@@ -259,6 +265,7 @@ void check_specimen(const Specimen& specimen, const Body& body, Space space,
                     const std::vector<char>& of_body) {
   if (specimen.spheres.empty()) fail<BadInput>("{}: no sphere in the specimen", specimen.source);
   check_coincident(specimen);
+  if (unit_hint(specimen, body, space).empty()) check_fit_in(specimen, body, space);
   check_inside(specimen, body, space, of_body);
   check_filled(specimen, body, space);
 }

@@ -5,6 +5,7 @@ A boundary condition that finds too few spheres must not be dropped, and calibra
 import json
 import math
 import re
+import shutil
 import unittest
 
 from programs import ProgramTest, run
@@ -95,9 +96,12 @@ class NominalBody(Specimens):
         self.assertNotIn("warning", self.dry(TRIAXIAL.replace("50 mm", fits)))
 
     def test_height(self):
-        for given in (108, 115, 92):
+        for given in (108, 115, 95):
             text = self.refused(TRIAXIAL.replace("100 mm", f"{given} mm"), "specimen.height", "would fit")
             self.assertAlmostEqual(float(re.search(r"([\d.]+) mm would fit", text)[1]), 100, delta=2)
+        # centres outside: said with what the spheres fill
+        text = self.refused(TRIAXIAL.replace("100 mm", "90 mm"), "height", "along the axis the spheres fill")
+        self.assertAlmostEqual(float(re.search(r"axis the spheres fill ([\d.]+) mm", text)[1]), 100, delta=3)
         self.refused(UCS.replace("100 mm", "108 mm"), "specimen.height", program="ucs")
 
     def test_centre(self):
@@ -173,18 +177,19 @@ class LooseSpheres(Specimens):
     """What hangs on nothing is in no gauge, no pressed surface and no box."""
 
     def test_stray(self):
-        stray = [[999, 0.0, 0.0, 0.0565, 0.002, 1]]
         self.place(self.spheres + [[999, 0.0, 0.0, 0.07, 0.002, 1]])
         self.refused(TRIAXIAL, "specimen.csv:302", "sphere 999", "stray", "remove")
-        # within the 2 % allowed outside: it must not shift the middle of the others
-        self.place([s for s in self.spheres if math.hypot(*s[1:4], ) > 0.012] + [[999, 0.0, 0.0, 0.0, 0.001, 1]])
+        # within what is allowed outside it runs, and must not shift the middle of the others
+        self.place(self.spheres + [[999, 0.0, 0.0, 0.0507, 0.0005, 1]])
+        self.assertIn("1 sphere hangs on nothing", self.dry(UCS, "ucs"))
+        # a speck in a hole, which moves with nothing
+        self.place([s for s in self.spheres if math.hypot(*s[1:4]) > 0.012] + [[999, 0.0, 0.0, 0.0, 0.001, 1]])
         with_speck = self.summary(UCS, "ucs", ["--set", "bonds.alpha=1"])
         self.kept(lambda x, y, z: math.hypot(x, y, z) > 0.012)
         without = self.summary(UCS, "ucs", ["--set", "bonds.alpha=1"])
         self.assertEqual(with_speck["loose_particles"], 1)
         for key in ("young_modulus_Pa", "poisson_ratio", "peak_stress_Pa"):
-            self.assertAlmostEqual(with_speck[key] / without[key], 1, delta=1e-3)
-        del stray
+            self.assertAlmostEqual(with_speck[key] / without[key], 1, delta=0.02)
 
     def test_unbonded_at_the_surface(self):
         self.grouped(lambda x, y, z: 0 if abs(z) < 0.02 and x > 0.014 else 1)
@@ -217,7 +222,7 @@ class Defects(Specimens):
         return self.dry(UCS, "ucs")
 
     def test_nearly_severed(self):
-        self.kept(lambda x, y, z: abs(z) > 0.006 or math.hypot(x, y) < 0.006)
+        self.kept(lambda x, y, z: abs(z) > 0.006 or math.hypot(x, y) < 0.009)
         self.refused(UCS, "bonds.alpha", "intact", program="ucs")
 
     def test_severed(self):
@@ -233,6 +238,7 @@ class Defects(Specimens):
         run_ = self.summary(TRIAXIAL, options=["--set", "bonds.alpha=0.9"])
         self.check_warned(run_, "surfaces that only touch", "2 pieces")
         self.assertEqual(run_["pieces"], 2)
+        shutil.rmtree(self.out)
         self.refused(UCS, "severed", program="tension")
 
     def test_two_halves(self):
