@@ -214,6 +214,13 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
         specimen.source, rule.grip == Support::strips ? "strips" : "end layers",
         rule.grip == Support::strips ? 2.5 : 1.5, a.length());
 
+  if (rule.grip == Support::halves && part_of.half_width >= part_of.edge)
+    fail<BadInput>(
+        "specimen.height: a shear box leaves five mean radii free between its halves, and 1.5 are held at "
+        "each "
+        "end: {:.3g} m, where the body has {:.3g} m; take a higher body or smaller spheres",
+        8.0 * a.mean_radius, body.height);
+
   a.range = rule.coordination ? range_for_coordination(p, group, *rule.coordination, threads) : rule.range;
   std::vector<Link> links = links_within(p, group, a.range, threads);
   if (links.empty())

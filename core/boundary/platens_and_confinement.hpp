@@ -16,6 +16,7 @@ struct Platens {
   double section = 0;              ///< m^2, by which reactions become stresses
   double pressure = 0;             ///< Pa, wanted of a servo
   std::array<double, 2> mass{};    ///< kg, of the layers: the rigid bodies that a servo moves
+  double servo_part = 1;           ///< of that mass, which a servo has to move
   double dashpot = 0;              ///< N s/m, holds back a servo
   std::array<Vec3, 2> velocity{};  ///< m/s, half a step before position
   std::array<Vec3, 2> travel{};    ///< m, since the start

@@ -329,15 +329,17 @@ void check_start(const ImpactScene& scene) {
     for (std::size_t k = 0; k < scene.walls.size(); ++k) {
       const double gap = clearance(scene.walls[k].shape, p.position) - p.radius;
       if (gap < -round_off * p.radius)
-        fail<BadInput>(
-            "particle {} reaches {:.4g} m into or beyond wall {} at the start; move it away, or turn the "
-            "plane's normal",
-            i + 1, -gap, k + 1);
+        throw BadScene(
+            "particle.position", i,
+            fmt::format("particle {} reaches {:.4g} m into or beyond wall {} at the start; move it "
+                        "away, or turn the plane's normal",
+                        i + 1, -gap, k + 1));
     }
   }
   for (const auto& [a, b] : near_pairs(position, radius, -round_off, 0.0, scene.threads))
-    fail<BadInput>("particles {} and {} overlap by {:.4g} m at the start; move them apart", a + 1, b + 1,
-                   radius[a] + radius[b] - norm(position[b] - position[a]));
+    throw BadScene("particle.position", b,
+                   fmt::format("particles {} and {} overlap by {:.4g} m at the start; move them apart", a + 1,
+                               b + 1, radius[a] + radius[b] - norm(position[b] - position[a])));
 }
 
 double critical_impact_step(const ImpactScene& scene) {
@@ -369,18 +371,26 @@ double critical_impact_step(const ImpactScene& scene) {
       if (is_met[m]) ask(wall_constants(scene, i, m), 0.5 * mass, speed + fastest);
   }
   if (!std::isfinite(least))
-    fail<BadInput>(
+    throw BadScene(
+        "particle.velocity", 0,
         "nothing moves: give a particle a velocity or set gravity, and another one or a wall to meet");
   return least;
+}
+
+double impact_steps(const ImpactScene& scene, double critical_step) {
+  const double step = scene.safety * critical_step, steps = std::ceil(scene.duration / step);
+  if (!(steps < 1e10))
+    throw BadScene(
+        "time.duration", 0,
+        fmt::format("{:.3g} s would need {:.2g} steps of {:.3g} s; shorten it or raise time.safety",
+                    scene.duration, steps, step));
+  return steps;
 }
 
 void run_impact(const ImpactScene& scene, ImpactResult& result, const std::function<bool()>& interrupted) {
   check_start(scene);
   result.critical_time_step = critical_impact_step(scene);
-  const double steps = std::ceil(scene.duration / (scene.safety * result.critical_time_step));
-  if (!(steps < 1e10))
-    fail<BadInput>("{:.2g} steps of {:.3g} s would be needed; shorten time.duration or raise time.safety",
-                   steps, scene.safety * result.critical_time_step);
+  const double steps = impact_steps(scene, result.critical_time_step);
   result.time_step = scene.duration / steps;
   ImpactWorld w = make_world(scene, result);
   const auto last = static_cast<std::uint64_t>(steps);

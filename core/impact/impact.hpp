@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/tables/column.hpp"
 #include "kernels/laws/hertz_mindlin.hpp"
 #include "kernels/math/wall.hpp"
@@ -86,13 +87,26 @@ struct ImpactResult {
   bool interrupted = false;
 };
 
-/// @throws BadInput: particles that overlap each other or a wall at the start, or lie behind one
+/// A scene that cannot be run: the key that is wrong, as a case calls it ("particle.position"), and of a list
+/// the entry, from 0.
+struct BadScene : BadInput {
+  BadScene(std::string of, std::size_t in, const std::string& text)
+      : BadInput(text), key(std::move(of)), entry(in) {}
+  std::string key;
+  std::size_t entry = 0;
+};
+
+/// @throws BadScene: particles that overlap each other or a wall at the start, or lie behind one
 void check_start(const ImpactScene& scene);
 
 /// (B40): the step at which the stiffest contact that can come about goes unstable, s: for Hertz at
 /// the overlap of the largest relative speed. A lower bound within 15 % for equal spheres.
-/// @throws BadInput when nothing moves and nothing pulls
+/// @throws BadScene when nothing moves and nothing pulls
 double critical_impact_step(const ImpactScene& scene);
+
+/// The number of steps of a run.
+/// @throws BadScene when there are more than anybody can wait for
+double impact_steps(const ImpactScene& scene, double critical_step);
 
 /// Runs a scene from start to end. `result` holds what there is when it throws.
 /// @param interrupted  asked now and then; true ends the run

@@ -24,6 +24,8 @@ struct RunSummary {
   std::optional<double> peak_deviator_Pa;         ///< total axial less confinement
   bool peak_reached = false;                      ///< the stress came down again after its largest value
   std::optional<double> strain_at_peak;
+  /// measured, mean over the rows within 5 % of the peak: a servo need not hold what was asked for
+  std::optional<double> confining_stress_at_peak_Pa;
   std::optional<double> young_modulus_Pa;     ///< initial: slope between 5 and 25 % of the peak deviator
   std::optional<double> young_modulus_50_Pa;  ///< tangent at half the peak deviator
   std::optional<double> poisson_ratio;
@@ -66,6 +68,7 @@ struct RunSummary {
   std::optional<double> rate_error, step_error, sampling_error;  ///< of the peak: see ErrorEstimate
   std::string state_hash;                                        ///< 16 hex digits
   std::string stopped_by;             ///< "strain", "peak drop", "interrupted", ...
+  std::string material_values;        ///< where the material has a table: which of its values the run used
   std::vector<std::string> warnings;  ///< one line each; empty when all is well
   /// SHA-256 of the run's files, by name: curve-K.csv, cracks-K.csv
   std::vector<std::pair<std::string, std::string>> files;
@@ -86,6 +89,7 @@ struct SeriesSummary {
   int ranks = 1;
   std::vector<RunSummary> runs;             ///< run K is runs[K], curve-K.csv, results.h5:/run-K
   std::optional<MohrCoulomb> mohr_coulomb;  ///< only where there were enough peaks
+  std::string no_mohr_coulomb = {};         ///< why a series of a test that has such a line has none
   /// SHA-256 of all files that were read, by name
   std::vector<std::pair<std::string, std::string>> inputs{};
 };

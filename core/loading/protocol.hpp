@@ -29,7 +29,8 @@ struct LoadTest {
   double unload_to = 0.1;         ///< fraction of the deviator at which loading begins again
 };
 
-enum class Stopped { strain, peak_drop, pressure, interrupted };
+/// no_rest: the specimen did not come to rest under its confinement, so that nothing was loaded.
+enum class Stopped { strain, peak_drop, pressure, interrupted, no_rest };
 
 /// When a specimen was unloaded and loaded again, s.
 struct Cycle {

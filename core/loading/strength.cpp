@@ -1,8 +1,11 @@
 #include "core/loading/strength.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace breccia {
 namespace {
@@ -32,9 +35,40 @@ std::span<const CurveRow> rising(std::span<const CurveRow> rows, std::size_t pea
   return rows.subspan(first, last - first);
 }
 
+/// Why a largest deviator that the curve has come down from, or never rose to, is no strength.
+std::string doubt_about_peak(const CurveFindings& f, double confinement, std::span<const double> mismatch) {
+  constexpr double mega = 1e-6;
+  if (!std::isfinite(f.peak_deviator)) return "the stress is not a number";
+  if (!(f.peak_deviator > 0.0))
+    return fmt::format("the deviator never rises above zero: at most {:.3g} MPa", mega * f.peak_deviator);
+  const double noise = noise_of_deviator(confinement, mismatch.first(f.peak_row + 1));
+  if (!(f.peak_deviator > noise))
+    return fmt::format("the largest deviator, {:.3g} MPa, is within the noise, {:.3g} MPa",
+                       mega * f.peak_deviator, mega * noise);
+  if (!can_be_strength(f.peak_deviator, confinement, mismatch.first(f.peak_row + 1)))
+    return fmt::format("the largest deviator, {:.3g} MPa, is less than a twentieth of the confinement",
+                       mega * f.peak_deviator);
+  if (f.peak_row < 2) return "the largest stress stands in the first rows of the curve";
+  return {};
+}
+
 }  // namespace
 
-CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double> mismatch) {
+// (B102)
+double noise_of_deviator(double confinement, std::span<const double> mismatch) {
+  double noise = 0.01 * confinement;
+  if (!mismatch.empty())
+    noise = std::max(noise, 3.0 * std::accumulate(mismatch.begin(), mismatch.end(), 0.0) /
+                                static_cast<double>(mismatch.size()));
+  return noise;
+}
+
+bool can_be_strength(double deviator, double confinement, std::span<const double> mismatch) {
+  return deviator > 0.05 * confinement && deviator > noise_of_deviator(confinement, mismatch);
+}
+
+CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double> mismatch,
+                         double confinement) {
   CurveFindings f;
   if (rows.empty()) return f;
   for (std::size_t k = 0; k < rows.size(); ++k)
@@ -46,7 +80,15 @@ CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double>
   double lowest = f.peak_deviator;  // since the peak
   for (std::size_t k = f.peak_row; k < rows.size(); ++k) lowest = std::min(lowest, deviator(rows[k]));
   const bool lasts = 50 * (rows.size() - 1 - f.peak_row) >= rows.size();
-  f.peak_reached = lowest < (lasts ? 0.99 : 0.95) * f.peak_deviator;  // (B81)
+  const auto before = mismatch.first(f.peak_row + 1);
+  const double fallen = f.peak_deviator - lowest, noise = noise_of_deviator(confinement, before);
+  f.peak_reached = lowest < (lasts ? 0.99 : 0.95) * f.peak_deviator && 3.0 * fallen > noise;  // (B81)
+  f.doubt = doubt_about_peak(f, confinement, mismatch);
+  // a curve that still rises at its end, from next to nothing, has merely been cut off
+  const bool rises = f.peak_row + 1 == rows.size() && f.peak_deviator > 0.0;
+  if (rises && !f.peak_reached) f.doubt.clear();
+  if (!f.doubt.empty()) f.peak_reached = false;
+  if (!(f.peak_deviator > noise)) return f;  // nor do moduli follow from noise
 
   const auto strain = [](const CurveRow& r) { return r.axial_strain; };
   const auto initial = rising(rows, f.peak_row, 0.05, 0.25);  // (B82)
@@ -173,6 +215,19 @@ std::optional<MohrCoulomb> fit_shear_line(std::span<const double> normal_stress,
   line.residual_Pa = std::sqrt(square / double(n));
   line.peaks = n;
   return line;
+}
+
+std::string doubt_about(const MohrCoulomb& line) {
+  if (!std::isfinite(line.cohesion_Pa) || !std::isfinite(line.friction_angle_deg))
+    return "the line through the peaks is not a number";
+  const double c = line.cohesion_Pa * 1e-6, phi = line.friction_angle_deg;
+  if (c < 0.0 || phi < 0.0)
+    return fmt::format(
+        "the line through {} peaks has {} ({:.2f} MPa, {:.1f} deg), which no material has", line.peaks,
+        c < 0.0 ? phi < 0.0 ? "cohesion and friction angle below zero" : "a cohesion below zero"
+                : "a friction angle below zero",
+        c, phi);
+  return {};
 }
 
 }  // namespace breccia

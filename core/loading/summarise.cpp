@@ -10,7 +10,6 @@
 #include "core/world/energies.hpp"
 
 namespace breccia {
-namespace {
 
 std::string name_of(Stopped stopped) {
   switch (stopped) {
@@ -22,9 +21,13 @@ std::string name_of(Stopped stopped) {
       return "pressure";
     case Stopped::interrupted:
       return "interrupted";
+    case Stopped::no_rest:
+      return "no rest";
   }
   return "?";
 }
+
+namespace {
 
 void warn_if_dynamic(const CurveFindings& f, RunSummary& run) {
   // (B87)
@@ -81,11 +84,11 @@ void read_moduli_before(double unloaded, std::span<const CurveRow> rows, std::sp
 
 /// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the lid's
 /// pressure.
-CurveFindings findings(const LaboratoryTest& test, const LoadResult& result) {
+CurveFindings findings(const LaboratoryTest& test, const LoadTest& load, const LoadResult& result) {
   std::vector<CurveRow> rows = result.record.rows;
   if (test.loading == Loading::shear)
     for (CurveRow& row : rows) row.confining_stress_Pa = 0;
-  CurveFindings f = read_curve(rows, result.record.mismatch);
+  CurveFindings f = read_curve(rows, result.record.mismatch, load.confinement);
   if (!result.cycles.empty())
     read_moduli_before(result.cycles.front().unloaded, rows, result.record.mismatch, f);
   if (!test.uniform_strain) f.young_modulus = f.young_modulus_50 = f.poisson_ratio = {};
@@ -109,6 +112,77 @@ void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunS
   run.first_cracks = 2 * central >= first ? "central" : "at the strips";
 }
 
+/// Pa, mean over the rows around the peak whose stress is within 5 % of it: one row alone reads the waves that
+/// each broken bond sends out.
+double held_around_peak(std::span<const CurveRow> rows, std::size_t peak) {
+  const auto is_near = [&](std::size_t k) {
+    return rows[k].axial_stress_Pa > 0.95 * rows[peak].axial_stress_Pa;
+  };
+  std::size_t first = peak, last = peak;
+  while (first > 0 && is_near(first - 1)) --first;
+  while (last + 1 < rows.size() && is_near(last + 1)) ++last;
+  double sum = 0;
+  for (std::size_t k = first; k <= last; ++k) sum += rows[k].confining_stress_Pa;
+  return sum / static_cast<double>(last - first + 1);
+}
+
+/// A servo that lags holds another stress than was asked for: of a shear box that dilates quickly, the normal
+/// stress; of a hydrostatic test, the axial one.
+void warn_if_not_held(const LaboratoryTest& test, const LoadTest& load, const LoadResult& result,
+                      const CurveFindings& f, RunSummary& run) {
+  const auto& rows = result.record.rows;
+  if (rows.empty()) return;
+  constexpr double allowed = 0.05;
+  const double mega = 1e-6, asked = load.confinement;
+  if (load.loading == Loading::hydrostatic) {
+    double most = 0;
+    for (const CurveRow& row : rows)
+      if (row.confining_stress_Pa > 0.25 * asked)
+        most = std::max(most, std::abs(row.axial_stress_Pa / row.confining_stress_Pa - 1.0));
+    if (most > allowed)
+      run.warnings.push_back(fmt::format(
+          "the axial stress differs by {:.0f} % from the pressure on the mantle; lower test.platen_speed",
+          100 * most));
+    return;
+  }
+  if (asked == 0 || test.rigid_sides) return;
+  const double held = held_around_peak(rows, f.peak_row);
+  run.confining_stress_at_peak_Pa = held;
+  double square = 0;  // on the way up
+  for (std::size_t k = 0; k <= f.peak_row; ++k)
+    square += std::pow(rows[k].confining_stress_Pa / asked - 1.0, 2) / static_cast<double>(f.peak_row + 1);
+  const double off = std::sqrt(square),
+               at_peak = std::abs(rows[f.peak_row].confining_stress_Pa / asked - 1.0);
+  if (std::max({off, at_peak, std::abs(held / asked - 1.0)}) > allowed)
+    run.warnings.push_back(fmt::format(
+        "{} was {:.4g} MPa around the peak ({:.0f} % off at it, {:.0f} % on the way to it), where "
+        "{:.4g} MPa was asked for; lower test.platen_speed",
+        load.loading == Loading::shear ? "the normal stress" : "the confinement", mega * held, 100 * at_peak,
+        100 * off, mega * asked));
+}
+
+/// Elastic constants that no solid has are those of a specimen that yields: under its confinement, or at once.
+void warn_if_not_elastic(const CurveFindings& f, RunSummary& run) {
+  constexpr double noise = 0.05;
+  if (f.poisson_ratio && !(*f.poisson_ratio > -noise && *f.poisson_ratio < 0.5 + noise))
+    run.warnings.push_back(fmt::format(
+        "poisson_ratio {:.2f} is none of a solid: the specimen was not elastic where the moduli are read",
+        *f.poisson_ratio));
+  if (f.young_modulus && !(*f.young_modulus > 0.0))
+    run.warnings.push_back(
+        fmt::format("young_modulus {:.3g} GPa is none of a solid", *f.young_modulus * 1e-9));
+}
+
+/// An unloading that a case asks for, and that its run ended before.
+void warn_if_not_unloaded(const LoadTest& load, const LoadResult& result, RunSummary& run) {
+  for (std::size_t k = result.cycles.size(); k < load.unload_at.size(); ++k)
+    run.warnings.push_back(fmt::format("test.unload_at {:g} was not reached: the run had ended ({})",
+                                       load.unload_at[k], run.stopped_by));
+  if (!result.cycles.empty() && !(result.cycles.back().reloaded > result.cycles.back().unloaded))
+    run.warnings.push_back(fmt::format("test.unload_at {:g}: the run ended ({}) before it was loaded again",
+                                       load.unload_at[result.cycles.size() - 1], run.stopped_by));
+}
+
 /// Under even pressure there is no peak; the answer is a bulk modulus.
 void forget_the_peak(const LoadResult& result, RunSummary& run) {
   run.peak_reached = false;
@@ -124,7 +198,7 @@ void forget_the_peak(const LoadResult& result, RunSummary& run) {
 
 RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly& a, const LoadTest& load,
                      const LoadResult& result) {
-  const CurveFindings f = findings(test, result);
+  const CurveFindings f = findings(test, load, result);
   RunSummary run;
   run.confinement_Pa = load.confinement;
   if (!result.record.rows.empty()) {
@@ -169,6 +243,8 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
   run.stopped_by = name_of(result.stopped);
   run.warnings = result.warnings;
   warn_of_pressure(run);
+  warn_if_not_held(test, load, result, f, run);
+  warn_if_not_unloaded(load, result, run);
   if (test.across) read_disc(w, a, result, run);
   if (test.tensile) run.tensile_strength_Pa = run.peak_stress_Pa;
   if (test.loading == Loading::shear) run.peak_deviator_Pa.reset();
@@ -182,6 +258,11 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
     forget_the_peak(result, run);
     return run;
   }
+  if (!f.doubt.empty()) {
+    run.warnings.push_back("no strength: " + f.doubt);
+    run.tensile_strength_Pa = run.strip_corrected_strength_Pa = {};
+  }
+  warn_if_not_elastic(f, run);
   warn_if_dynamic(f, run);
   warn_of_modulus(w.material, run);
   if (run.peak_reached) {
@@ -195,14 +276,25 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
 }
 
 void fit_peaks(const LaboratoryTest& test, SeriesSummary& series) {
+  series.mohr_coulomb.reset();
+  series.no_mohr_coulomb.clear();
+  if (series.runs.size() < 2 || test.line == StrengthLine::none) return;
   std::vector<double> confinement, peak;
   for (const RunSummary& run : series.runs) {
     if (!run.peak_reached) continue;  // the largest stress so far is not a strength
-    confinement.push_back(run.confinement_Pa);
+    confinement.push_back(run.confining_stress_at_peak_Pa.value_or(run.confinement_Pa));
     peak.push_back(*run.peak_stress_Pa);
   }
-  series.mohr_coulomb = test.line == StrengthLine::shear ? fit_shear_line(confinement, peak)
-                                                         : fit_mohr_coulomb(confinement, peak);
+  const auto line = test.line == StrengthLine::shear ? fit_shear_line(confinement, peak)
+                                                     : fit_mohr_coulomb(confinement, peak);
+  if (line)
+    series.no_mohr_coulomb = doubt_about(*line);
+  else
+    series.no_mohr_coulomb = peak.size() < 2
+                                 ? fmt::format("{} of {} runs reached a peak, and a line needs two",
+                                               peak.size(), series.runs.size())
+                                 : "the peaks do not rise with the confinement";
+  if (line && series.no_mohr_coulomb.empty()) series.mohr_coulomb = line;
 }
 
 }  // namespace breccia

@@ -9,6 +9,9 @@ namespace breccia {
 RunSummary summarise(const LaboratoryTest& test, const World& world, const Assembly& assembly,
                      const LoadTest& load, const LoadResult& result);
 
+/// Its word in a summary.
+std::string name_of(Stopped stopped);
+
 /// The straight line through the peaks of a series, where the test has one.
 void fit_peaks(const LaboratoryTest& test, SeriesSummary& series);
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/packing/packing.hpp"
 #include "core/packing/relax.hpp"
 
 namespace breccia::packing {
@@ -65,13 +66,13 @@ void inflate(const Region& region, double wanted, std::span<double> r, std::span
     by = (wanted - now) / slope;
   }
   if (!at_rest)
-    fail<BadInput>(
-        "packing: discs find no rest at genesis pressure {:g} k_n, they are pressed through each other or "
-        "through "
-        "walls: ask for less pressure, a narrower range of sizes or more discs",
-        wanted);
-  fail<BadInput>("packing: genesis pressure {:g} k_n not reached, only {:g} k_n: ask for more discs", wanted,
-                 before);
+    throw BadPacking(
+        "genesis_pressure",
+        fmt::format("discs find no rest at {:g} k_n, they are pressed through each other or through "
+                    "walls: ask for less pressure, a narrower range of sizes or more discs",
+                    wanted));
+  throw BadPacking("genesis_pressure",
+                   fmt::format("{:g} k_n not reached, only {:g} k_n: ask for more discs", wanted, before));
 }
 
 }  // namespace breccia::packing

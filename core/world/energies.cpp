@@ -16,14 +16,33 @@ BrokenCount count_broken(const World& w) {
   });
 }
 
+namespace {
+
+/// J, of one particle.
+double kinetic_energy_of(const ParticleTable& p, std::size_t row, double factor) {
+  double twice = p.mass[row] * dot(p.velocity[row], p.velocity[row]);
+  if (!p.spin.empty()) twice += inertia(factor, p.mass[row], p.radius[row]) * dot(p.spin[row], p.spin[row]);
+  return 0.5 * twice;
+}
+
+}  // namespace
+
 double kinetic_energy(const World& w) {
   std::vector<double> blocks;
-  const ParticleTable& p = w.particles;
+  const double factor = inertia_factor(w);
+  return sum_particles(w.partition, w.options.threads, blocks,
+                       [&](std::size_t row) { return kinetic_energy_of(w.particles, row, factor); });
+}
+
+double kinetic_energy_of_bonded(const World& w) {
+  std::vector<char> is_held(w.particles.position.size(), 0);
+  for (std::size_t k = 0; k < w.bonds.padded; ++k)
+    if (w.bonds.stiffness[k] > 0.0 && bond_state(w.bonds, k) == BondState::intact)
+      is_held[w.bonds.row_lo[k]] = is_held[w.bonds.row_hi[k]] = 1;
+  std::vector<double> blocks;
   const double factor = inertia_factor(w);
   return sum_particles(w.partition, w.options.threads, blocks, [&](std::size_t row) {
-    double twice = p.mass[row] * dot(p.velocity[row], p.velocity[row]);
-    if (!p.spin.empty()) twice += inertia(factor, p.mass[row], p.radius[row]) * dot(p.spin[row], p.spin[row]);
-    return 0.5 * twice;
+    return is_held[row] ? kinetic_energy_of(w.particles, row, factor) : 0.0;
   });
 }
 

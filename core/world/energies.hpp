@@ -16,6 +16,9 @@ BrokenCount count_broken(const World& world);
 /// J, of plain velocities, which belong to half a step ago.
 double kinetic_energy(const World& world);
 
+/// J, the same of the particles that an intact bond holds.
+double kinetic_energy_of_bonded(const World& world);
+
 /// J, of bonds and contacts.
 /// @param back  s, by which the positions are taken back along the velocities: the world's step gives the
 ///              moment of the last forces, and of the history

@@ -60,7 +60,10 @@ void run_impact_program(const CommandLine& line) {
   say(progress, fmt::format("{} steps in {:.2f} s; kinetic energy {:.6g} J before, {:.6g} J after\n",
                             result.steps, result.run_time, result.kinetic_before, result.kinetic_after));
   say(progress, format_impact_table(result));
-  say(progress, fmt::format("written: {}", line.out.string()));
+  std::string files;
+  for (const char* name : {"case.toml", "summary.json", "curve-0.csv"})
+    files += fmt::format("{}{}", files.empty() ? "" : ", ", (line.out / name).string());
+  say(progress, fmt::format("files: {}", files));
 }
 
 }  // namespace breccia

@@ -61,6 +61,22 @@ std::string title_of(const Case& c, std::size_t k) {
   return runs == 1 ? pressure : fmt::format("run {} of {}, {}", k + 1, runs, pressure);
 }
 
+/// Defaults that are not everybody's, and the values of a material that has a table.
+std::string explain_case(const Case& c) {
+  std::string text;
+  if (!c.unusual.empty())
+    text += fmt::format("defaults of this case\n  {}\n\n", fmt::join(c.unusual, "\n  "));
+  std::string table;
+  for (std::size_t k = 0; k < c.material_notes.size(); ++k) {
+    const MaterialNote& note = c.material_notes[k];
+    if (note.from.empty()) continue;
+    table += fmt::format("  {:.4g} MPa: {}: {}{}{}\n", c.test.confinement[k] * 1e-6, note.from, note.values,
+                         note.warning.empty() ? "" : "; warning: ", note.warning);
+  }
+  if (!table.empty()) text += "values of the material's table\n" + table + "\n";
+  return text;
+}
+
 /// One run of a series and what it writes to.
 struct RunOfSeries {
   const Case& c;
@@ -167,6 +183,9 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
   if (!run.ranks.is_root()) return {};
   write_curve(curve, result.record.rows);
   RunSummary summary = summarise(run.test, whole, a, load, result);
+  const MaterialNote& note = run.c.material_notes[run.k];
+  summary.material_values = note.from;
+  if (!note.warning.empty()) summary.warnings.push_back(note.warning);
   summary.files = digests_of(run.folder, {curve});
   if (crack_file) {
     // on the disk before a checkpoint of the next run calls this one finished
@@ -281,7 +300,7 @@ void run_series(const LaboratoryTest& test, const CommandLine& line) {
     say(progress, step_line(w, c.safety));
     if (const std::string elastic = describe_elasticity(c, test, ready, line.threads); !elastic.empty())
       say(progress, elastic);
-    if (line.explain) say(progress, "\n" + explain(w));
+    if (line.explain) say(progress, "\n" + explain_case(c) + explain(w));
     return;
   }
 
@@ -328,7 +347,13 @@ void run_series(const LaboratoryTest& test, const CommandLine& line) {
   if (!ranks.is_root()) return;
   if (stopped != Stopped::interrupted) remove_checkpoints(line.out);
   say(progress, "\n" + format_summary_table(series, line.out));
-  if (stopped == Stopped::interrupted) say(progress, "interrupted; --resume goes on from here");
+  if (stopped == Stopped::interrupted) return say(progress, "interrupted; --resume goes on from here");
+  for (const RunSummary& run : series.runs)
+    if (run.stopped_by == name_of(Stopped::no_rest))
+      fail<SimulationBroke>(
+          "under {:.4g} MPa the specimen did not come to rest and was not loaded; see the "
+          "warnings in {}",
+          run.confinement_Pa * 1e-6, (line.out / "summary.json").string());
 }
 
 }  // namespace

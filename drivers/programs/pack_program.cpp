@@ -1,6 +1,7 @@
 #include "drivers/programs/pack_program.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 
@@ -50,6 +51,8 @@ void run_pack_program(const CommandLine& line) {
   const Specimen specimen = make_specimen(c, line.threads, progress, warnings);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   say(progress, report(specimen, c.specimen, seconds, line.threads));
+  if (line.explain && !c.unusual.empty())
+    say(progress, fmt::format("defaults of this case\n  {}", fmt::join(c.unusual, "\n  ")));
   if (line.dry_run || line.explain) return;
   const bool same = is_resolved_already(line.out, c.source, c.resolved);
   FolderUse use{{"specimen.csv"}, c.inputs};
@@ -57,7 +60,8 @@ void run_pack_program(const CommandLine& line) {
   const FolderLock lock = claim_run_folder(line.out, line.force ? Old::replace : Old::refuse, use);
   if (!same) atomic_write(line.out / "case.toml", c.resolved);
   write_specimen_csv(line.out / "specimen.csv", specimen);
-  say(progress, fmt::format("written: {}", (line.out / "specimen.csv").string()));
+  say(progress,
+      fmt::format("files: {}, {}", (line.out / "case.toml").string(), (line.out / "specimen.csv").string()));
 }
 
 }  // namespace breccia

@@ -17,8 +17,19 @@
 #include "kernels/loops/bond_pass.hpp"
 
 namespace breccia {
-
 namespace {
+
+/// What is said of a key from far below gets "file:line" in front.
+template <class Work>
+auto with_place(const Case& c, const Work& work) {
+  try {
+    return work();
+  } catch (const BadInput& bad) {
+    const std::string text = bad.what(), key = text.substr(0, text.find(':'));
+    if (find_key(key)) fail<BadInput>("{}: {}", place_of(c, key), text);
+    throw;
+  }
+}
 
 /// Reads a specimen, and puts it in place by the spheres that hang together.
 Specimen read_and_place(const Case& c, int threads, Progress& progress, std::vector<std::string>& warnings) {
@@ -38,9 +49,15 @@ Specimen read_and_place(const Case& c, int threads, Progress& progress, std::vec
 Specimen make_specimen(const Case& c, int threads, Progress& progress, std::vector<std::string>& warnings) {
   const SpecimenCase& s = c.specimen;
   if (!s.pack) return read_and_place(c, threads, progress, warnings);
-  say(progress, fmt::format("packing {} {}", s.pack->spheres, s.space == Space::two_d ? "discs" : "spheres"));
-  hold_at(HoldPoint::packing);
-  return pack_spheres(s.body, *s.pack);
+  try {
+    say(progress, fmt::format("packing {} {}", spheres_of(s.body, *s.pack),
+                              s.space == Space::two_d ? "discs" : "spheres"));
+    hold_at(HoldPoint::packing);
+    return pack_spheres(s.body, *s.pack);
+  } catch (const BadPacking& bad) {
+    const std::string key = "specimen.pack." + bad.key;
+    fail<BadInput>("{}: {}: {}", place_of(c, key), key, bad.what());
+  }
 }
 
 Features asked_features(const Case& c) {
@@ -66,9 +83,9 @@ Features features_that_run(const Case& c, const Features& asked) {
       fail<BadInput>(
           "{}: run.precision \"mixed\" is built for material.law \"dempack\" without the criterion "
           "\"coupled\"; leave run.precision out",
-          c.source.string());
+          place_of(c, "run.precision"));
     fail<BadInput>("{}: material.law \"{}\" has no criterion \"coupled\"; leave material.criterion out",
-                   c.source.string(), m.law);
+                   place_of(c, "material.criterion"), m.law);
   }
 }
 
@@ -152,7 +169,7 @@ ReadySpecimen make_ready(const Case& c, const LaboratoryTest& test, const Featur
   }
   const auto bonded = [&](const Specimen& s, const Body& b, Support support) {
     rule.grip = support;
-    return assemble(s, b, rule, features, threads, asked.rotation);
+    return with_place(c, [&] { return assemble(s, b, rule, features, threads, asked.rotation); });
   };
   const bool contacts = has_contacts(c, test);
   const auto look_at = [&](Assembly& a) {

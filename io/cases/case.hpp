@@ -1,6 +1,7 @@
 // A case file, resolved: every key with its unit taken off and its default filled in.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -56,12 +57,20 @@ struct FeatureCase {  ///< what the scene may leave out
   bool rotation = true, plasticity = true, breakage = true, new_contacts = true, energy_ledger = true;
 };
 
+/// Where the material of a run comes from, if it has a table over the confinement.
+struct MaterialNote {
+  std::string from;     ///< which values of the table; empty: the same at every confinement
+  std::string values;   ///< of the keys that the table changes
+  std::string warning;  ///< empty: the table has an answer
+};
+
 struct Case {
   std::filesystem::path source;               ///< the case file
   std::vector<std::filesystem::path> inputs;  ///< all that was read: the case, its preset, its specimen
   SpecimenCase specimen;
-  std::string preset;               ///< name of the material preset; empty: none
-  std::vector<Material> materials;  ///< one per confinement, in the order of test.confinement
+  std::string preset;                        ///< name of the material preset; empty: none
+  std::vector<Material> materials;           ///< one per confinement, in the order of test.confinement
+  std::vector<MaterialNote> material_notes;  ///< one per confinement
   BondsCase bonds;
   DampingCase damping;
   FeatureCase features;
@@ -76,6 +85,8 @@ struct Case {
   int frames = 20;
   bool stress = false, cracks = true;  ///< output
   std::string resolved;                ///< the whole case as TOML, every default written out
+  std::map<std::string, std::string, std::less<>> places;  ///< "file:line" of each key that is given
+  std::vector<std::string> unusual;  ///< lines: defaults that another law, test, dimension or recipe has not
 };
 
 /// Reads, checks and resolves a case file.
@@ -85,6 +96,9 @@ struct Case {
 /// @throws BadInput: one line with file, line, key and the nearest valid choice
 Case load_case(const std::filesystem::path& file, const std::vector<std::string>& sets,
                const std::string& test);
+
+/// "file:line" of a key, or the case's file where it was not given.
+std::string place_of(const Case& c, std::string_view key);
 
 /// The keys that a test accepts, one a line: name, what is valid, default, meaning. For `--help`.
 std::string describe_keys(const std::string& test);

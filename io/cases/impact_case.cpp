@@ -253,13 +253,40 @@ struct Reader {
     }
   }
 
+  /// "file:line" of a key, of its table, or the file.
+  std::string place_of(const std::string& key, std::size_t entry) const {
+    const TomlNode* node = find(key.substr(0, key.find('.')));
+    if (!node) return file;
+    if (const auto* list = std::get_if<TomlArray>(&node->value))
+      node = entry < list->size() ? &(*list)[entry] : node;
+    if (const auto* table = std::get_if<TomlTable>(&node->value))
+      for (const auto& [word, child] : *table)
+        if (word == key.substr(key.find('.') + 1)) return child.place;
+    return node->place.empty() ? file : node->place;
+  }
+
+  /// A request that nothing can come of.
+  void idle() const {
+    const ImpactScene& s = result.scene;
+    if (s.law == ContactLaw::linear && s.form == HertzForm::classic)
+      refuse(place_of("contact.form", 0), "contact.form", "belongs to law = \"hertz-mindlin\"; leave it out");
+    for (std::size_t k = 0; k < result.material_names.size(); ++k) {
+      const auto has = [&](const auto& one) { return one.material == k; };
+      if (std::any_of(s.particles.begin(), s.particles.end(), has) ||
+          std::any_of(s.walls.begin(), s.walls.end(), has))
+        continue;
+      const std::string key = "materials." + result.material_names[k];
+      refuse(place_of(key, 0), key, "no particle or wall is of it; leave it out");
+    }
+  }
+
   /// What only the whole scene tells.
   void start() const {
     try {
       check_start(result.scene);
-      critical_impact_step(result.scene);
-    } catch (const BadInput& error) {
-      fail<BadInput>("{}: {}", file, error.what());
+      impact_steps(result.scene, critical_impact_step(result.scene));
+    } catch (const BadScene& bad) {
+      refuse(place_of(bad.key, bad.entry), bad.key, bad.what());
     }
   }
 };
@@ -289,6 +316,7 @@ ImpactCase load_impact_case(const std::filesystem::path& file, const std::vector
   reader.materials();
   reader.particles();
   reader.walls();
+  reader.idle();
   reader.start();
   return std::move(reader.result);
 }

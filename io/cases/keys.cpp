@@ -16,6 +16,7 @@ constexpr Range at_least(double low) { return {.low = low}; }
 constexpr Range between(double low, double high) { return {low, high, true, true}; }
 constexpr Range from_to_below(double low, double high) { return {low, high, false, true}; }
 constexpr Range more_than_to(double low, double high) { return {low, high, true, false}; }
+constexpr Range from_to(double low, double high) { return {low, high, false, false}; }
 
 Shape shape_of(std::string_view word) {
   return word == "disc" ? Shape::disc : word == "box" ? Shape::box : Shape::cylinder;
@@ -127,18 +128,20 @@ constexpr std::array keys{
             }},
     Key{.name = "specimen.pack.spheres",
         .kind = Kind::whole_number,
-        .range = at_least(1),
-        .meaning = "number of spheres, in 2-D of discs, to pack",
+        .range = {1, static_cast<double>(pack_limits::most_spheres), false, false},
+        .meaning = "number of spheres, in 2-D of discs, to pack; of sieves it follows: leave it out",
         .store = [](C& c, const R& r) { pack_of(c).spheres = static_cast<std::size_t>(r.whole); }},
     Key{.name = "specimen.pack.porosity",
         .default_text = "0.26",
         .default_2d = "0.11",
-        .range = between(0, 1),
+        .range = from_to(pack_limits::least_porosity_of_plane, pack_limits::most_porosity),
+        .where = {"specimen.dimensions", "3",
+                  from_to(pack_limits::least_porosity, pack_limits::most_porosity)},
         .meaning = "1 - sum of sphere volumes/body volume: overlaps count twice; beside genesis_pressure: at "
                    "the start",
         .store = [](C& c, const R& r) { pack_of(c).porosity = r.number; }},
     Key{.name = "specimen.pack.genesis_pressure",
-        .range = more_than_to(0, 0.12),
+        .range = more_than_to(0, pack_limits::most_genesis_pressure),
         .meaning = "2-D: discs grow until the walls feel this pressure over k_n, sigma_0/k_n",
         .store = [](C& c, const R& r) { pack_of(c).genesis_pressure = r.number; }},
     Key{.name = "specimen.pack.seed",
@@ -155,7 +158,8 @@ constexpr std::array keys{
         .store = [](C& c, const R& r) { pack_of(c).sizes.kind = sizes_of(r.word); }},
     Key{.name = "specimen.pack.sizes.spread",
         .default_text = "0.26",
-        .range = from_to_below(0, 1),
+        .range = from_to(0, pack_limits::most_spread_uniform),
+        .where = {"specimen.pack.sizes.kind", "lognormal", from_to(0, pack_limits::most_spread_lognormal)},
         .meaning = "lognormal: standard deviation of ln r; uniform: half-width over mean",
         .store = [](C& c, const R& r) { pack_of(c).sizes.spread = r.number; }},
     Key{.name = "specimen.pack.sizes.openings",
@@ -163,7 +167,7 @@ constexpr std::array keys{
         .dimension = dimension::length,
         .range = more_than(0),
         .rising = true,
-        .meaning = "sieves: openings, rising",
+        .meaning = "sieves: openings, rising; lengths, so that body and porosity give the number of spheres",
         .store = [](C& c, const R& r) { pack_of(c).sizes.sieve_openings = r.numbers; }},
     Key{.name = "specimen.pack.sizes.passing",
         .kind = Kind::quantities,
@@ -171,6 +175,11 @@ constexpr std::array keys{
         .rising = true,
         .meaning = "sieves: mass fraction passing each opening, rising to 1",
         .store = [](C& c, const R& r) { pack_of(c).sizes.sieve_passing = r.numbers; }},
+    Key{.name = "specimen.pack.sizes.finest",
+        .dimension = dimension::length,
+        .range = more_than(0),
+        .meaning = "sieves: what is finer is left out, and what passes counts from there",
+        .store = [](C& c, const R& r) { pack_of(c).sizes.finest = r.number; }},
 
     // --- the material
     Key{.name = "material.preset",

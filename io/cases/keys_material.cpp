@@ -50,7 +50,8 @@ void fit_to_law(Layer& material) {
   }
 }
 
-/// `low`, then what stands for one confinement, then the rest.
+}  // namespace
+
 Layer laid(const MaterialLayers& m, const Layer* preset_at, const Layer* given_at) {
   Layer result = m.preset;
   if (preset_at) lay_over(result, *preset_at);
@@ -63,8 +64,6 @@ Layer laid(const MaterialLayers& m, const Layer* preset_at, const Layer* given_a
   fit_to_law(result);
   return result;
 }
-
-}  // namespace
 
 std::filesystem::path shipped_data() { return BRECCIA_DATA_DIR; }
 
@@ -88,10 +87,6 @@ Source read_preset(const std::string& name, const std::string& place,
   refuse(place, "material.preset",
          fmt::format("no preset {}; {}valid: {}", quote(name),
                      best.empty() ? "" : "did you mean " + quote(best) + "? ", quote_list(present)));
-}
-
-Layer material_at(const MaterialLayers& m, double confinement) {
-  return laid(m, find_confinement(m.preset_at, confinement), find_confinement(m.given_at, confinement));
 }
 
 Layer material_base(const MaterialLayers& m) { return laid(m, nullptr, nullptr); }

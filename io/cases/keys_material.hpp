@@ -28,9 +28,10 @@ std::filesystem::path shipped_data();
 Source read_preset(const std::string& name, const std::string& place,
                    const std::filesystem::path& case_folder);
 
-/// The keys in force at a confinement: --set, the case's [[material.at]], [material], the preset's [[at]],
-/// the preset.
-Layer material_at(const MaterialLayers&, double confinement);
+/// The whole material, laid from the preset, what stands for one confinement in it, [material],
+/// [[material.at]] and --set, each over the one before.
+/// @param preset_at, given_at  nullptr: nothing stands there
+Layer laid(const MaterialLayers&, const Layer* preset_at, const Layer* given_at);
 
 /// The keys in force where no confinement is named; a confinement changes some of them.
 Layer material_base(const MaterialLayers&);

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
-
+#include "core/loading/laboratory_tests.hpp"
 #include "io/cases/accuracy.hpp"
 #include "io/cases/impact_keys.hpp"
 #include "io/cases/keys_material.hpp"
@@ -15,16 +13,13 @@
 namespace breccia {
 namespace {
 
-constexpr std::array<std::string_view, 8> tests{"ucs",         "triaxial", "bts",   "usc",
-                                                "hydrostatic", "tension",  "shear", "biaxial"};
-/// Of the tests and breccia-pack, those whose scenes may have two dimensions.
-constexpr std::array<std::string_view, 5> tests_in_plane{"ucs", "bts", "tension", "biaxial", "pack"};
-
 std::string_view table_of(const Key& key) { return key.name.substr(0, key.name.rfind('.')); }
 std::string_view word_of(const Key& key) { return key.name.substr(key.name.rfind('.') + 1); }
 
-bool has_plane(std::string_view test) {
-  return std::find(tests_in_plane.begin(), tests_in_plane.end(), test) != tests_in_plane.end();
+/// Whether scenes of a test, or packings, may have two dimensions.
+bool has_plane(std::string_view program) {
+  const LaboratoryTest* test = find_laboratory_test(program);
+  return !test || test->two_d;
 }
 
 /// Two dimensions where the case does not say otherwise.
@@ -47,7 +42,8 @@ std::string cell(std::string_view text) {
 /// The default of a key, and below it each condition under which it is another.
 std::string all_defaults(const Key& key) {
   std::string text = key.default_text.empty() ? "none" : code(key.default_text);
-  for (const std::string_view test : tests) {
+  for (const LaboratoryTest& row : laboratory_tests) {
+    const std::string_view test = row.name;
     if (!accepts(key, test) || usual_space(test) == Space::two_d) continue;
     const std::string_view own = default_text_of(key, test);
     if (own != key.default_text)
@@ -55,7 +51,8 @@ std::string all_defaults(const Key& key) {
   }
   for (const ConditionalDefault& other : conditional_defaults(key, ""))
     text += fmt::format("; {} {} {}", other.kind, other.of, code(other.value));
-  for (const std::string_view test : tests) {
+  for (const LaboratoryTest& row : laboratory_tests) {
+    const std::string_view test = row.name;
     if (!accepts(key, test) || usual_space(test) == Space::three_d) continue;
     const std::string_view own = default_text_of(key, test, Space::two_d);
     if (own != key.default_text && own != key.default_2d) text += fmt::format("; {} {}", test, code(own));
@@ -66,7 +63,8 @@ std::string all_defaults(const Key& key) {
 /// Programs that take a key: all of them, all but some, or the few that do.
 std::string takers(const Key& key) {
   std::vector<std::string_view> with, without;
-  for (const std::string_view test : tests) (accepts(key, test) ? with : without).push_back(test);
+  for (const LaboratoryTest& test : laboratory_tests)
+    (accepts(key, test.name) ? with : without).push_back(test.name);
   std::string text = without.empty()                ? "all tests"
                      : without.size() < with.size() ? fmt::format("all but {}", fmt::join(without, ", "))
                                                     : fmt::format("{}", fmt::join(with, ", "));
@@ -152,8 +150,11 @@ std::string describe_keys(const std::string& test) {
     text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), describe_values(key),
                         describe_default(key, test), key.meaning);
     if (key.name == "material.preset" && accepts(*find_key("test.confinement"), test))
-      text += fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
-                          "a table [[material.at]]: keys of the material for one confinement");
+      text +=
+          fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
+                      "a table [[material.at]]: keys of the material for one confinement; between two of "
+                      "them, and zero, values lie on straight lines; beyond the last one that one's hold, "
+                      "with a warning");
   }
   return text;
 }

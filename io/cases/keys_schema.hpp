@@ -30,6 +30,12 @@ struct Range {
   bool low_open = false, high_open = false;
 };
 
+/// Where another key has a certain value, a range is narrower.
+struct RangeWhere {
+  std::string_view key, value;
+  Range range;
+};
+
 /// One key of a case. Words are separated by blanks.
 struct Key {
   std::string_view name;  ///< with its table: "test.platen_speed"
@@ -39,6 +45,7 @@ struct Key {
   std::string_view standard_for{};  ///< where a test has another: "bts=disc biaxial=smooth"
   std::string_view default_2d{};    ///< where a 2-D scene has another and the test has none
   Range range{};
+  RangeWhere where{};
   std::string_view words{};       ///< valid words
   std::string_view reserved{};    ///< words (or true) that a later version brings: refused by name
   std::size_t count = 0;          ///< of quantities; 0: one or more

@@ -24,12 +24,13 @@ std::string wanted_quantity(const Key& key) {
                      si_unit(key.dimension));
 }
 
-void check_range(const Key& key, double value, const std::string& place, Dimension d) {
-  const Range& r = key.range;
+void check_range(const Key& key, const Range& r, double value, const std::string& place, Dimension d,
+                 const std::string& where = {}) {
   const bool below = r.low_open ? value <= r.low : value < r.low;
   const bool above = r.high_open ? value >= r.high : value > r.high;
   if (below || above)
-    refuse(place, key.name, fmt::format("must be {}, not {}", describe(r, d), format_quantity(value, d)));
+    refuse(place, key.name,
+           fmt::format("must be {}{}, not {}", describe(r, d), where, format_quantity(value, d)));
 }
 
 double read_quantity(const Key& key, const TomlNode& node) {
@@ -48,7 +49,7 @@ double read_quantity(const Key& key, const TomlNode& node) {
     refuse(node.place, key.name, fmt::format("{}, not {}", wanted_quantity(key), shown(node)));
   }
   if (!std::isfinite(value)) refuse(node.place, key.name, shown(node) + " is not a finite number");
-  check_range(key, value, node.place, key.dimension);
+  check_range(key, key.range, value, node.place, key.dimension);
   return value;
 }
 
@@ -82,7 +83,7 @@ std::int64_t read_whole(const Key& key, const TomlNode& node) {
     value = static_cast<std::int64_t>(*real);
   else
     refuse(node.place, key.name, "a whole number is wanted, not " + shown(node));
-  check_range(key, static_cast<double>(value), node.place, dimension::number);
+  check_range(key, key.range, static_cast<double>(value), node.place, dimension::number);
   return value;
 }
 
@@ -118,6 +119,11 @@ void refuse(const std::string& place, std::string_view key, const std::string& t
       line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; },
       ' ');  // a quoted key may hold any
   throw BadInput(line);
+}
+
+void check_range(const Key& key, const Reading& reading, const Range& range, const std::string& place,
+                 const std::string& where) {
+  check_range(key, range, reading.number, place, key.dimension, where);
 }
 
 Reading read_value(const Key& key, const TomlNode& node) {

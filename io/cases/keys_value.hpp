@@ -15,6 +15,10 @@ namespace breccia {
 /// @throws BadInput with the node's place and the key
 Reading read_value(const Key&, const TomlNode&);
 
+/// Refuses numbers of a reading that lie outside a range.
+void check_range(const Key&, const Reading&, const Range&, const std::string& place,
+                 const std::string& where);
+
 /// A value written as a default is, for instance by a law.
 Reading read_default_text(const Key&, std::string_view text);
 

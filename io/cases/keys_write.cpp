@@ -1,5 +1,7 @@
 #include "io/cases/keys_write.hpp"
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 #include "io/text/suggest.hpp"
 
@@ -13,20 +15,35 @@ void write_line(std::string& text, const Key& key, const Reading& reading) {
   text += fmt::format("{} = {}\n", word_of(key), write_value(key, reading));
 }
 
-/// Only what a confinement changes, so that a reader sees it.
-void write_at(std::string& text, const ConfinementLayer& at, const Layer& base) {
-  std::string lines;
-  for (const Key& key : all_keys()) {
-    const auto here = at.layer.find(key.name), there = base.find(key.name);
-    if (here == at.layer.end()) continue;
-    if (there != base.end() &&
-        write_value(key, here->second.reading) == write_value(key, there->second.reading))
-      continue;
-    write_line(lines, key, here->second.reading);
+/// Whether a confinement changes what stands behind a key.
+bool differs(const Key& key, const Layer& at, const Layer& base) {
+  const auto here = at.find(key.name), there = base.find(key.name);
+  return here != at.end() && (there == base.end() || write_value(key, here->second.reading) !=
+                                                         write_value(key, there->second.reading));
+}
+
+/// Only what confinements change, so that a reader sees it; what one of them changes stands at each, since values
+/// between two confinements lie between theirs. Zero may be left out: it has the values of the base.
+void write_at(std::string& text, const std::vector<ConfinementLayer>& groups, const Layer& base) {
+  std::vector<const Key*> changed;
+  for (const Key& key : all_keys())
+    if (std::any_of(groups.begin(), groups.end(),
+                    [&](const ConfinementLayer& at) { return differs(key, at.layer, base); }))
+      changed.push_back(&key);
+  if (changed.empty()) return;
+  for (const ConfinementLayer& at : groups) {
+    std::string lines;
+    bool differ = at.confinement != 0;
+    for (const Key* key : changed) {
+      differ = differ || differs(*key, at.layer, base);
+      if (const auto here = at.layer.find(key->name); here != at.layer.end())
+        write_line(lines, *key, here->second.reading);
+    }
+    if (!differ) continue;
+    const std::string confinement = format_quantity(at.confinement, dimension::stress);
+    text += fmt::format("\n[[material.at]]{}{}\nconfinement = {}\n{}", at.place.empty() ? "" : "  # ",
+                        at.place, toml_string(confinement), lines);
   }
-  if (lines.empty()) return;
-  const std::string confinement = format_quantity(at.confinement, dimension::stress);
-  text += fmt::format("\n[[material.at]]\nconfinement = {}\n{}", toml_string(confinement), lines);
 }
 
 }  // namespace
@@ -44,7 +61,10 @@ std::string describe_values(const Key& key) {
     default:
       break;
   }
-  const std::string range = describe(key.range, key.dimension);
+  std::string range = describe(key.range, key.dimension);
+  if (!key.where.key.empty())
+    range += fmt::format(" ({} {}: {})", key.where.key.substr(key.where.key.rfind('.') + 1), key.where.value,
+                         describe(key.where.range, key.dimension));
   const std::string what = key.kind == Kind::whole_number ? "a whole number" : describe(key.dimension);
   const std::string list = key.kind != Kind::quantities ? ""
                            : key.count                  ? fmt::format("{} x ", key.count)
@@ -57,8 +77,7 @@ std::string write_case(const Layer& keys, const Layer& base, const std::vector<C
   std::string text = fmt::format("# breccia-{}: the case with every default written out\n", test);
   std::string_view table;
   const auto end_material = [&] {
-    if (table == "material")
-      for (const ConfinementLayer& group : at) write_at(text, group, base);
+    if (table == "material") write_at(text, at, base);
   };
   for (const Key& key : all_keys()) {
     const Layer& layer = table_of(key) == "material" ? base : keys;

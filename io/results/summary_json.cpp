@@ -78,6 +78,8 @@ void for_each_rare_field(Run& run, Visit&& visit) {
   visit("first_cracks", run.first_cracks);
   visit("bulk_modulus_Pa", run.bulk_modulus_Pa);
   visit("cycles", run.cycles);
+  visit("confining_stress_at_peak_Pa", run.confining_stress_at_peak_Pa);
+  visit("material_values", run.material_values);
   visit("files", run.files);
 }
 
@@ -210,6 +212,7 @@ void write_summary(const std::filesystem::path& file, const SeriesSummary& serie
            {"ranks", series.ranks}};
   if (!series.inputs.empty()) all["inputs"] = of(series.inputs);
   if (series.mohr_coulomb) all["mohr_coulomb"] = of(*series.mohr_coulomb);
+  if (!series.no_mohr_coulomb.empty()) all["no_mohr_coulomb"] = series.no_mohr_coulomb;
   all["runs"] = std::move(runs);
   // replace: a text that is not UTF-8 (a file's name) must not lose the results of hours
   atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');

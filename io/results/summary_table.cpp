@@ -39,6 +39,12 @@ std::vector<Column> columns() {
          // the largest stress so far is not a strength
          return fmt::format("{}{:.2f}", run.peak_reached ? "" : "> ", *run.peak_stress_Pa / 1e6);
        }},
+      {"held", "MPa",
+       [](const R& run) {  // where it is not what was asked for
+         if (!is_known(run.confining_stress_at_peak_Pa)) return std::string();
+         const double held = *run.confining_stress_at_peak_Pa, asked = run.confinement_Pa;
+         return std::abs(held - asked) > 0.005 * asked ? fmt::format("{:.4g}", held / 1e6) : std::string();
+       }},
       number("deviator", "MPa", 1e6, 2, &R::peak_deviator_Pa),
       number("tensile", "MPa", 1e6, 3, &R::tensile_strength_Pa),
       number("at strain", "%", 1e-2, 3, &R::strain_at_peak),
@@ -111,6 +117,31 @@ std::string error_of(const RunSummary& run) {
       percent(*run.sampling_error), run.run_time_s);
 }
 
+/// What a series has really written, of what it may write: first and last where there is one for each run.
+std::vector<std::string> files_of(const SeriesSummary& series, const std::filesystem::path& folder) {
+  std::vector<std::string> files;
+  std::error_code ignored;
+  const auto add = [&](const std::string& name) {
+    const std::filesystem::path file = folder / name;
+    if (std::filesystem::exists(file, ignored)) files.push_back(file.string());
+  };
+  const auto add_of_runs = [&](std::string_view before, std::string_view after) {
+    const auto name = [&](std::size_t run) { return fmt::format("{}{}{}", before, run, after); };
+    const std::size_t held = files.size(), last = series.runs.size();
+    for (std::size_t run = 0; run < last; ++run) add(name(run));
+    if (files.size() - held <= 3) return;
+    files[held] += " to " + files.back();
+    files.resize(held + 1);
+  };
+  add("case.toml");
+  add("summary.json");
+  add_of_runs("curve-", ".csv");
+  add_of_runs("cracks-", ".csv");
+  add("results.h5");
+  add_of_runs("frames/run-", ".pvd");
+  return files;
+}
+
 }  // namespace
 
 std::string format_summary_table(const SeriesSummary& series, const std::filesystem::path& folder) {
@@ -122,6 +153,8 @@ std::string format_summary_table(const SeriesSummary& series, const std::filesys
         "Mohr-Coulomb from {} peaks: cohesion {:.2f} MPa, friction angle {:.1f} deg, residual {:.2f} MPa\n",
         line->peaks, line->cohesion_Pa / 1e6, line->friction_angle_deg, line->residual_Pa / 1e6);
   }
+  if (!series.no_mohr_coulomb.empty())
+    fmt::format_to(out, "Mohr-Coulomb: none: {}\n", series.no_mohr_coulomb);
   for (std::size_t run = 0; run < series.runs.size(); ++run) {
     for (const std::string& warning : series.runs[run].warnings) {
       fmt::format_to(out, "warning, run {}: {}\n", run, warning);
@@ -129,9 +162,9 @@ std::string format_summary_table(const SeriesSummary& series, const std::filesys
   }
   for (const RunSummary& run : series.runs) text += error_of(run);
   text += times_of(series.runs);
-  const auto place = [&](std::string_view name) { return (folder / name).string(); };
-  fmt::format_to(out, "files: {}, {}, {}, {} (ParaView)\n", place("summary.json"), place("curve-K.csv"),
-                 place("results.h5"), place("frames/run-K.pvd"));
+  std::string files;
+  for (const std::string& file : files_of(series, folder)) files += (files.empty() ? "" : ", ") + file;
+  fmt::format_to(out, "files: {}\n", files);
   return text;
 }
 

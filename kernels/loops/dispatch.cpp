@@ -60,7 +60,8 @@ InstructionSet set_named(std::string_view wanted) {
 }  // namespace
 
 InstructionSet best_instruction_set() {
-  if (const char* wanted = std::getenv("BRECCIA_INSTRUCTION_SET"); wanted && *wanted) return set_named(wanted);
+  if (const char* wanted = std::getenv("BRECCIA_INSTRUCTION_SET"); wanted && *wanted)
+    return set_named(wanted);
   if (__builtin_cpu_supports("x86-64-v4")) return InstructionSet::x86_64_v4;
   if (__builtin_cpu_supports("x86-64-v3")) return InstructionSet::x86_64_v3;
   return InstructionSet::x86_64;

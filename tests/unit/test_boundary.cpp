@@ -155,7 +155,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("boundary: the pressure that acts is the inward force over the nominal surface, correction and all") {
+TEST_CASE(
+    "boundary: the pressure that acts is the inward force over the nominal surface, correction and all") {
   for (const bool lopsided : {false, true}) {
     Assembly a = packed(400);
     if (lopsided) {  // three neighbours are found: what does not balance is taken out again

@@ -265,7 +265,7 @@ TEST_CASE("outputs: summary.json and the table of the terminal") {
   CHECK(text.find("\"confinement_Pa\"") < text.find("\"peak_stress_Pa\""));
   CHECK(text.find("\"platens\"") < text.find("\"bonds\": 7.5"));
 
-  const std::string table = format_summary_table(series, "out/t");
+  const std::string table = format_summary_table(series, folder.path);
   CAPTURE(table);
   CHECK(contains(table, "60.25"));
   CHECK(contains(table, "> 30.00"));  // its peak was not reached
@@ -276,7 +276,15 @@ TEST_CASE("outputs: summary.json and the table of the terminal") {
   CHECK(contains(table, "time 20.0 s:  bonds 87.5 %  platens 2.5 %  other 10.0 %"));
   CHECK(contains(table, "cohesion 16.00 MPa, friction angle 40.5 deg"));
   CHECK(contains(table, "warning, run 0: kinetic ratio"));
-  CHECK(contains(table, "out/t/summary.json"));
+  // the files that are there, and no others
+  CHECK(contains(table, "files: " + (folder.path / "summary.json").string() + "\n"));
+  for (const int run : {0, 1}) std::ofstream(folder.path / fmt::format("curve-{}.csv", run)) << "\n";
+  CHECK(contains(format_summary_table(series, folder.path),
+                 "summary.json, " + (folder.path / "curve-0.csv").string() + ", " +
+                     (folder.path / "curve-1.csv").string() + "\n"));
+  series.mohr_coulomb.reset();
+  series.no_mohr_coulomb = "the peaks do not rise";
+  CHECK(contains(format_summary_table(series, folder.path), "Mohr-Coulomb: none: the peaks do not rise\n"));
 }
 
 TEST_CASE("outputs: results.h5 as h5py reads it") {

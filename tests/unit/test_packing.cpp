@@ -294,14 +294,17 @@ TEST_CASE("packing: sieves: the mass curve is matched, before and after packing"
   CHECK(2 * radii.front() <= 0.016);
   CHECK(2 * radii.back() >= 0.002);
 
-  PackRequest r = request(4000);
+  PackRequest r = request(0);  // sieves are lengths: they give the number
   r.sizes = law;
   const Specimen s = pack_spheres(cylinder, r);
+  CHECK(s.spheres.size() == spheres_of(cylinder, r));
   CHECK(porosity(cylinder, s) == doctest::Approx(0.26).epsilon(1e-12));
   std::vector<double> packed;
   for (const auto& p : s.spheres) packed.push_back(p.radius);
-  const double scale = *std::max_element(packed.begin(), packed.end()) / radii.front();
-  CHECK(passing(packed, 0.0095 * scale) == doctest::Approx(0.6).epsilon(0.01));
+  CHECK(2 * *std::max_element(packed.begin(), packed.end()) <= 0.016);
+  CHECK(2 * *std::min_element(packed.begin(), packed.end()) >= 0.002);
+  CHECK(passing(packed, 0.0095) == doctest::Approx(0.6).epsilon(0.01));
+  CHECK(passing(packed, 0.004) == doctest::Approx(0.3).epsilon(0.01));
   CHECK(pairs(s).nested == 0);
 }
 
@@ -319,7 +322,7 @@ TEST_CASE("packing: progress rises from 0 to 1") {
 }
 
 TEST_CASE("packing: bad requests are refused in one line") {
-  CHECK(has(refusal(cylinder, request(0)), "0 spheres"));
+  CHECK(has(refusal(cylinder, request(0)), "0 asked for"));
   CHECK(has(refusal(cylinder, request(3)), "bigger than the body"));
   CHECK(has(refusal(Body{Shape::box, 0.1, 0, 0.1}, request(100)), "not all positive"));
   for (const double p : {0.0, 0.1, 0.7, 1.0, -1.0, std::nan("")}) {
@@ -339,10 +342,37 @@ TEST_CASE("packing: bad requests are refused in one line") {
     return refusal(cylinder, r);
   };
   CHECK(has(sieves({}, {}), "0 openings"));
-  CHECK(has(sieves({0.002, 0.004}, {0, 0.5, 1}), "2 openings and 3"));
+  CHECK(has(sieves({0.002, 0.004}, {0, 0.5, 1}), "3 values for 2 openings"));
   CHECK(has(sieves({0.004, 0.002}, {0, 1}), "does not exceed"));
   CHECK(has(sieves({0.002, 0.004, 0.008}, {0, 0.5, 0.4}), "does not rise"));
   CHECK(has(sieves({0.002, 0.004}, {0.2, 1}), "finer than the first opening"));
   CHECK(has(sieves({0.002, 0.004}, {0, 0.9}), "only 0.9 passes"));
-  CHECK(has(sieves({0.0001, 0.0002, 0.1, 0.2}, {0, 0.5, 0.5, 1}), "would hold"));
+  // 1.2e8 grains of 0.1 to 0.2 mm beside a few of 1 to 2 cm
+  CHECK(has(sieves({0.0001, 0.0002, 0.01, 0.02}, {0, 0.5, 0.5, 1}), "sizes.finest"));
+  r.spheres = 0;
+  CHECK(has(sieves({0.005, 0.006, 0.04, 0.045}, {0, 0.97, 0.97, 1}), "would hold"));
+  CHECK(has(sieves({0.02, 0.06}, {0, 1}), "leave out the coarsest sieve"));
+  r.spheres = 100;
+  CHECK(has(sieves({0.004, 0.008}, {0, 1}), "not 100; write"));
+  r.sizes.finest = 0.009;
+  CHECK(has(sieves({0.004, 0.008}, {0, 1}), "leaves nothing"));
+}
+
+TEST_CASE("packing: sieves cut above their fines keep what passes the others, counted from there [exact]") {
+  SizeDistribution law;
+  law.kind = SizeDistribution::Kind::sieves;
+  law.sieve_openings = {0.001, 0.002, 0.004, 0.008};
+  law.sieve_passing = {0, 0.2, 0.6, 1};
+  const SizeDistribution at_opening = packing::without_fines(law, 0.002);
+  CHECK(at_opening.sieve_openings == std::vector<double>{0.002, 0.004, 0.008});
+  CHECK(at_opening.sieve_passing[1] == doctest::Approx(0.5).epsilon(1e-12));
+  CHECK(at_opening.sieve_passing.back() == doctest::Approx(1).epsilon(1e-12));
+  const SizeDistribution within = packing::without_fines(law, std::sqrt(0.002 * 0.004));  // 40 % are finer
+  CHECK(within.sieve_passing[0] == 0);
+  CHECK(within.sieve_passing[1] == doctest::Approx(1.0 / 3).epsilon(1e-12));
+  // one class: m/ln 2 (6/pi) (d0^-3 - d1^-3)/3 spheres in a cubic metre of solid
+  law.sieve_openings = {0.004, 0.008};
+  law.sieve_passing = {0, 1};
+  CHECK(packing::spheres_per_volume(law, Space::three_d) ==
+        doctest::Approx(2 / std::numbers::pi / std::log(2.0) * (1 / 64e-9 - 1 / 512e-9)).epsilon(1e-12));
 }

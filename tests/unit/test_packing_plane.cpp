@@ -341,7 +341,7 @@ TEST_CASE("discs: bad requests are refused in one line") {
   CHECK(has(refusal({Shape::cylinder, 0.1, 0, 0.1}, request(100)), "not a cylinder"));
   CHECK(has(refusal({Shape::box, 0.1, 0, 0}, request(100)), "not all positive"));
   CHECK(has(refusal({Shape::disc, 0, 0, 1}, request(100)), "not all positive"));
-  CHECK(has(refusal(rectangle, request(0)), "0 spheres"));
+  CHECK(has(refusal(rectangle, request(0)), "0 asked for"));
   CHECK(has(refusal(rectangle, request(1)), "bigger than the body"));
   for (const double p : {0.0, 0.01, 0.7, std::nan("")}) {
     PackRequest r = request(100);
@@ -349,7 +349,7 @@ TEST_CASE("discs: bad requests are refused in one line") {
     CHECK(has(refusal(rectangle, r), "porosity"));
   }
   for (const double p : {-0.01, 0.13, std::nan("")})
-    CHECK(has(refusal(rectangle, request(100, p)), "is not between 0 and 0.12 k_n"));
+    CHECK(has(refusal(rectangle, request(100, p)), "must be from 0 to 0.12"));
   PackRequest spheres = request(100, 0.04);
   spheres.space = Space::three_d;
   CHECK(has(refusal({Shape::box, 0.1, 0.1, 0.1}, spheres), "in the plane"));

@@ -99,6 +99,47 @@ TEST_CASE("strength: a curve that has not come down has no peak reached, one tha
   CHECK(f.young_modulus_50.value() == doctest::Approx(30e9).epsilon(1e-9));
 }
 
+TEST_CASE("strength: a swing below the noise or a twentieth of the confinement is no peak [exact]") {
+  std::vector<CurveRow> rows;
+  for (int k = 0; k < 500; ++k) {  // a deviator of 2 MPa at most, gone again in the end
+    CurveRow row;
+    row.time_s = row.axial_strain = 1e-6 * k;
+    row.confining_stress_Pa = 30e6;
+    row.axial_stress_Pa = 30e6 + 2e6 * std::sin(std::numbers::pi * k / 499.0);
+    rows.push_back(row);
+  }
+  const auto read = [&](double pressure, double differ) {
+    return read_curve(rows, std::vector<double>(rows.size(), differ), pressure);
+  };
+  CHECK(read(30e6, 0).peak_reached);  // 1.5 MPa would be a twentieth
+  CHECK(read(30e6, 0).doubt.empty());
+  CHECK_FALSE(read(50e6, 0).peak_reached);
+  CHECK(read(50e6, 0).doubt.find("a twentieth of the confinement") != std::string::npos);
+  CHECK(read(50e6, 0).young_modulus);
+  CHECK_FALSE(read(0, 0.7e6).peak_reached);  // three times what the platens differ by
+  CHECK(read(0, 0.7e6).doubt.find("within the noise") != std::string::npos);
+  CHECK_FALSE(read(0, 0.7e6).young_modulus);
+  CHECK(read(0, 0.6e6).peak_reached);
+  for (CurveRow& row : rows) row.axial_stress_Pa -= 3e6;
+  CHECK_FALSE(read(30e6, 0).peak_reached);
+  CHECK(read(30e6, 0).doubt.find("never rises above zero") != std::string::npos);
+  rows.front().axial_stress_Pa = 60e6;
+  CHECK(read(30e6, 0).doubt.find("in the first rows") != std::string::npos);
+  rows.front().axial_stress_Pa = std::nan("");
+  CHECK(read(30e6, 0).doubt.find("not a number") != std::string::npos);
+}
+
+TEST_CASE("strength: a line through peaks with negative cohesion or friction angle is none [exact]") {
+  const std::vector<double> p{1e6, 2e6};
+  CHECK(doubt_about(*fit_mohr_coulomb(p, std::vector{20e6, 24e6})).empty());
+  CHECK(doubt_about(*fit_mohr_coulomb(p, std::vector{4e6, 9e6})).find("a cohesion below zero") !=
+        std::string::npos);
+  CHECK(doubt_about(*fit_mohr_coulomb(p, std::vector{20e6, 20.5e6})).find("a friction angle below zero") !=
+        std::string::npos);
+  CHECK(doubt_about(*fit_shear_line(p, std::vector{0.5e6, 2e6})).find("a cohesion below zero") !=
+        std::string::npos);
+}
+
 TEST_CASE("strength: a rising part that dips uses the last way up to the peak [exact]") {
   auto rows = curve(0.003);
   for (int k = 0; k < 200; ++k) {  // a first loop, unloaded: slope 10 GPa, to 6 MPa

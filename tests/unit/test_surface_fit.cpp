@@ -81,8 +81,7 @@ TEST_CASE("surface fit: a core cut from a block is rough, and not wrong where it
   const SurfaceFit f = fit(take(s), core);
   CHECK(f.across.roughness > 0.5);
   CHECK(judge(f.across) != Fit::wrong);
-  std::erase_if(s.spheres, [](const auto& b) {
-    return std::hypot(b.centre.x, b.centre.y) + b.radius > 0.02;
-  });
+  std::erase_if(s.spheres,
+                [](const auto& b) { return std::hypot(b.centre.x, b.centre.y) + b.radius > 0.02; });
   CHECK(judge(fit(take(s), core).across) == Fit::wrong);
 }

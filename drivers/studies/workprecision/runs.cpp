@@ -36,7 +36,7 @@ Case with_recipe(const Case& c, const Recipe& r) {
 }
 
 Outcome outcome_of(const World& w, const LoadResult& result) {
-  const CurveFindings f = read_curve(result.record.rows, result.record.mismatch);
+  const CurveFindings f = read_curve(result.record.rows, result.record.mismatch, w.confinement.pressure);
   Outcome o;
   o.peak_reached = f.peak_reached;
   o.readings.curve = thinned(rising_curve(result.record.rows), curve_points);
