@@ -5,9 +5,8 @@ A boundary condition that finds too few spheres must not be dropped, and calibra
 import json
 import math
 import re
-import unittest
 
-from programs import ProgramTest, run
+from programs import ProgramTest, main, run
 
 HEADER = "id,x_m,y_m,z_m,r_m,group\n"
 TRIAXIAL = """[specimen]
@@ -287,4 +286,4 @@ class Units(Specimens):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()
