@@ -1,7 +1,9 @@
 #include "drivers/programs/impact_program.hpp"
 #include "io/cases/impact_case.hpp"
+#include "io/cases/keys_reference.hpp"
 
 int main(int argc, char** argv) {
   return breccia::run_program("impact", "Free particles against each other and walls.", argc, argv,
-                              breccia::run_impact_program, breccia::describe_impact_keys());
+                              breccia::run_impact_program, breccia::describe_impact_keys(), false,
+                              breccia::impact_reference);
 }

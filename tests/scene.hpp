@@ -9,6 +9,9 @@
 
 #include "core/bonding/law_of_material.hpp"
 #include "core/packing/packing.hpp"
+#include "core/stepping/step.hpp"
+#include "core/world/loop_views.hpp"
+#include "core/world/make_world.hpp"
 #include "core/world/world.hpp"
 #include "kernels/loops/contact_pass.hpp"
 #include "tests/reference/reference.hpp"

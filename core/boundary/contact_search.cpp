@@ -69,7 +69,7 @@ NeighbourList make_neighbour_list(const Assembly& a, bool enabled, double skin) 
 }
 
 bool rebuild_is_due(NeighbourList& s, const ParticleTable& p, const Partition& partition, std::uint64_t step,
-                   double dt, int threads) {
+                    double dt, int threads) {
   if (!s.enabled || step < s.next_check) return false;
   s.next_check = step + static_cast<std::uint64_t>(s.check_every);
 
@@ -96,8 +96,9 @@ bool rebuild_is_due(NeighbourList& s, const ParticleTable& p, const Partition& p
   return due;
 }
 
-void renew_contacts(NeighbourList& s, ContactTable& contacts, const ParticleTable& p,
-                    const ContactMaterial& material, const Features& features, bool ledger, int threads) {
+void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const ParticleTable& p,
+                            const ContactMaterial& material, const Features& features, bool ledger,
+                            int threads) {
   using std::numbers::pi;
   const bool first_list = !s.awake;
   s.awake = true;

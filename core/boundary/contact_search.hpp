@@ -11,11 +11,11 @@
 namespace breccia {
 
 struct NeighbourList {
-  bool enabled = true;           ///< off: the scene leaves out new contacts
-  bool awake = false;            ///< a list of candidates exists
-  double skin = 0;               ///< m, candidates are apart by less than this
-  double slack = 0;              ///< m, what pairs may approach before the list must be renewed
-  double reach = 0;              ///< m, largest distance that a candidate pair can have
+  bool enabled = true;  ///< off: the scene leaves out new contacts
+  bool awake = false;   ///< a list of candidates exists
+  double skin = 0;      ///< m, candidates are apart by less than this
+  double slack = 0;     ///< m, what pairs may approach before the list must be renewed
+  double reach = 0;     ///< m, largest distance that a candidate pair can have
   // (B97)
   int check_every = 16;          ///< steps
   std::uint64_t next_check = 0;  ///< step
@@ -31,7 +31,7 @@ NeighbourList make_neighbour_list(const Assembly& assembly, bool enabled, double
 /// True when surfaces without a bond may have come within reach since the list was made.
 /// Every rank comes to the same answer.
 bool rebuild_is_due(NeighbourList& search, const ParticleTable& particles, const Partition& partition,
-                   std::uint64_t step, double dt, int threads);
+                    std::uint64_t step, double dt, int threads);
 
 /// See the column arm_offset.
 inline double contact_arm_offset(double radius_lo, double radius_hi) {
@@ -48,7 +48,8 @@ struct ContactMaterial {
 /// Makes the list of candidates anew, their dashpots not yet set; pairs that were in contact keep their
 /// history.
 /// @param ledger  with the columns that an energy ledger needs
-void renew_contacts(NeighbourList& search, ContactTable& contacts, const ParticleTable& particles,
-                    const ContactMaterial& material, const Features& features, bool ledger, int threads);
+void rebuild_neighbour_list(NeighbourList& search, ContactTable& contacts, const ParticleTable& particles,
+                            const ContactMaterial& material, const Features& features, bool ledger,
+                            int threads);
 
 }  // namespace breccia

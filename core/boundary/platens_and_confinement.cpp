@@ -19,7 +19,8 @@ struct LayerForces {
   }
 };
 
-std::array<Vec3, 2> forces_on_layers(const ParticleTable& p, const Partition& partition, std::size_t first_top) {
+std::array<Vec3, 2> forces_on_layers(const ParticleTable& p, const Partition& partition,
+                                     std::size_t first_top) {
   std::vector<LayerForces> blocks;
   const auto held = [&](std::size_t row) { return std::max(row, p.free); };
   const auto force_on = [&](std::size_t row) {

@@ -65,6 +65,8 @@ struct RunSummary {
   std::string stopped_by;             ///< "strain", "peak drop", "interrupted", ...
   std::string material_values;        ///< where the material has a table: which of its values the run used
   std::vector<std::string> warnings;  ///< one line each; empty when all is well
+  /// SHA-256 of the run's files, by name: curve-K.csv, cracks-K.csv
+  std::vector<std::pair<std::string, std::string>> files;
 };
 
 /// Straight line through the peaks of a series: shear strength over pressure.
@@ -83,6 +85,8 @@ struct SeriesSummary {
   std::vector<RunSummary> runs;             ///< run K is runs[K], curve-K.csv, results.h5:/run-K
   std::optional<MohrCoulomb> mohr_coulomb;  ///< only where there were enough peaks
   std::string no_mohr_coulomb = {};         ///< why a series of a test that has such a line has none
+  /// SHA-256 of all files that were read, by name
+  std::vector<std::pair<std::string, std::string>> inputs{};
 };
 
 }  // namespace breccia

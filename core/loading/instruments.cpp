@@ -47,7 +47,7 @@ Reading read(World& w, const Instruments& in) {
   r.axial_stress = in.sign * axial_stress(w.platens);
   // across a disc strains are not uniform: no volume follows from them (B79)
   r.volumetric_strain = in.grip == Support::strips ? CurveRow::untracked
-                                                : r.axial_strain + in.lateral_directions * r.radial_strain;
+                                                   : r.axial_strain + in.lateral_directions * r.radial_strain;
   r.mismatch = mismatch(w.platens);
   return r;
 }

@@ -6,8 +6,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/hold.hpp"
+#include "core/distributed/gather.hpp"
+#include "core/distributed/halo.hpp"
 #include "core/loading/instruments.hpp"
 #include "core/loading/strength.hpp"
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/energy_accounting.hpp"
+#include "core/world/sync.hpp"
 
 namespace breccia {
 namespace {
@@ -35,7 +42,7 @@ CurveRow state_row(World& w) {
   row.broken_shear = static_cast<double>(broken.shear);
   row.kinetic_J = kinetic_energy(w);
   if (w.ledger.enabled) {
-    const EnergyBalance energies = balance(w);
+    const EnergyBalance energies = energy_balance(w);
     record_balance(w.ledger, energies);
     row.stored_J = energies.stored;
     row.dissipated_J = energies.dissipated();
@@ -60,6 +67,7 @@ struct Run {
   Clock::time_point told{};  ///< when the program was last told
 
   bool interrupted() const { return hooks.interrupted && hooks.interrupted(); }
+  bool is_root() const { return w.partition.ranks.is_root(); }
 };
 
 void enter(Run& run, Stage stage) {
@@ -81,6 +89,7 @@ void tell(Run& run, int stage, double fraction, const CurveRow& row) {
     run.hooks.cracks(std::span(cracks).last(fresh));
   }
   run.state.cracks_told = cracks.size();
+  hold_at(HoldPoint::crack, fresh);
   const auto now = Clock::now();
   if (!run.hooks.progress || now - run.told < std::chrono::milliseconds(100)) return;
   run.told = now;
@@ -95,11 +104,13 @@ void frame_if_due(Run& run, double done, const CurveRow& row, bool last) {
   const Lap lap(run.w.phases, Phase::output);
   if (run.hooks.frame) run.hooks.frame(run.w, run.state.frames, row);
   ++run.state.frames;
+  if (run.is_root()) hold_at(HoldPoint::frame);
 }
 
 /// @returns true when the run is to end here, interrupted
 bool checkpoint_if_due(Run& run) {
   const Ranks& ranks = run.w.partition.ranks;
+  if (ranks.is_root()) hold_at(HoldPoint::row);
   const bool due = run.hooks.checkpoint_due && ranks.is_root() && run.hooks.checkpoint_due();
   double asked[] = {run.interrupted() ? 1.0 : 0.0, due ? 1.0 : 0.0};
   all_reduce_max(ranks, asked);
@@ -218,6 +229,7 @@ bool has_dropped(Run& run, const CurveRow& row) {
 /// 0.3 crossings, however soft the band (Routh).
 void hold_normal_stress(World& w, double wanted, double crossing) {
   Platens& p = w.platens;
+  // (B101)
   p.pressure += std::min(1.0, 2.0 * w.dt / crossing) * (wanted - axial_stress(p));
 }
 
@@ -265,6 +277,7 @@ void load(Run& run) {
     set_speed(w, test.loading, speed);
     if (test.loading == Loading::shear) hold_normal_stress(w, test.confinement, crossing);
     advance(w);
+    if (run.is_root()) hold_at(HoldPoint::step);
     const double done = travel(w, in) / (test.stop_strain * width);
     if (!add_reading(recorder, read(w, in)) && done < 1.0) continue;
     const CurveRow row = close_row(recorder, state_row(w));

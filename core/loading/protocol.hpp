@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/loading/stability_checks.hpp"
 #include "core/loading/recorder.hpp"
+#include "core/loading/stability_checks.hpp"
 #include "core/world/world.hpp"
 
 namespace breccia {

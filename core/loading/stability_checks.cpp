@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/world/energies.hpp"
 
 namespace breccia {
 namespace {
@@ -290,7 +291,8 @@ StabilityChecks make_stability_checks(const World& w) {
   all_reduce_max(w.partition.ranks, extremes);
   g.fastest = extremes[0] > 0.0 ? extremes[0] : std::numeric_limits<double>::infinity();
   g.shortest = -extremes[1];
-  g.accounted = g.max_energy = std::max(0.0, kinetic_energy(w) - energy_of_layers(w.platens)) + stored_energy(w);
+  g.accounted = g.max_energy =
+      std::max(0.0, kinetic_energy(w) - energy_of_layers(w.platens)) + stored_energy(w);
   // each place is rounded at every step; errors of 64 steps in a row, all one way
   const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * g.farthest;
   std::vector<double> blocks;

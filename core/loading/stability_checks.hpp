@@ -27,8 +27,8 @@ inline constexpr double out_of_balance = 0.1;
 /// A specimen as it stands now, with the velocities that it has. Called on every rank.
 StabilityChecks make_stability_checks(const World& world);
 
-/// Brings to the root what each rank's guards have noted of its part of the skin.
-void gather_surface_marks(StabilityChecks& guards, const World& world);
+/// Brings to the root what each rank's checks have noted of its part of the skin.
+void gather_surface_marks(StabilityChecks& checks, const World& world);
 
 /// A particle is lost beyond so many times the longest edge of the specimen's box.
 inline constexpr double lost_sizes = 10.0;  // (B59)
@@ -51,6 +51,6 @@ double allowed_excess(const World& world);
 /// loss) but rise only by the work of platens and pressure. So it needs no account of what was dissipated.
 /// @param kinetic, stored  J, of all particles and bonds
 /// @throws SimulationBroke with time, step, particle, bond, likely cause and what to change
-void check(StabilityChecks& guards, const World& world, double kinetic, double stored);
+void check(StabilityChecks& checks, const World& world, double kinetic, double stored);
 
 }  // namespace breccia

@@ -54,6 +54,7 @@ std::string doubt_about_peak(const CurveFindings& f, double confinement, std::sp
 
 }  // namespace
 
+// (B102)
 double noise_of_deviator(double confinement, std::span<const double> mismatch) {
   double noise = 0.01 * confinement;
   if (!mismatch.empty())

@@ -7,6 +7,7 @@
 #include "core/loading/error_estimate.hpp"
 #include "core/loading/strength.hpp"
 #include "core/tables/state_hash.hpp"
+#include "core/world/energies.hpp"
 
 namespace breccia {
 

@@ -89,7 +89,9 @@ FileOrder file_order(const Partition& partition, const ParticleTable& particles)
   });
 }
 
-FileOrder file_order(const Partition& partition, const BondTable& bonds) { return order_of_pairs(partition, bonds); }
+FileOrder file_order(const Partition& partition, const BondTable& bonds) {
+  return order_of_pairs(partition, bonds);
+}
 
 FileOrder file_order(const Partition& partition, const ContactTable& contacts) {
   return order_of_pairs(partition, contacts);

@@ -131,7 +131,7 @@ void barrier(const Ranks& ranks) {
 }
 
 void all_to_all(std::size_t bytes, const void* mine, std::span<const std::size_t> to, void* all,
-                   std::span<const std::size_t> from) {
+                std::span<const std::size_t> from) {
   const Layout there = layout_of(to), here = layout_of(from);
   MPI_Datatype element;
   MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &element);

@@ -45,7 +45,7 @@ void barrier(const Ranks& ranks);
 /// Of several ranks: each gives each some elements, every one of `bytes`; they come in the order of ranks.
 /// @param to, from  elements for, and of, each rank
 void all_to_all(std::size_t bytes, const void* mine, std::span<const std::size_t> to, void* all,
-                   std::span<const std::size_t> from);
+                std::span<const std::size_t> from);
 /// Of several ranks: how many elements each has for this one, where this one has `to` for each.
 std::vector<std::size_t> sizes_for_me(std::span<const std::size_t> to);
 

@@ -6,15 +6,13 @@
 // threads.
 #pragma once
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 #include "core/base/threads.hpp"
 #include "core/ranks/mpi.hpp"
+#include "core/tables/bond_table.hpp"
 
 namespace breccia {
-
-struct World;
 
 /// Rows [first, last).
 struct Rows {
@@ -29,8 +27,6 @@ struct Partition {
   std::vector<Neighbour> neighbours;
   /// Of several ranks, per block of bonds: true where one ends in another's part.
   std::vector<char> interface_blocks;
-  /// Of several ranks, on the root: what lists of contacts, pictures and messages are made from.
-  std::shared_ptr<World> whole;
 
   Rows owned() const {
     const auto r = static_cast<std::size_t>(ranks.rank);
@@ -51,14 +47,15 @@ struct Partition {
 Partition serial_partition(std::size_t rows);
 
 /// Of one of several ranks: parts of equal work, neighbours not yet met.
-Partition partition_of_rank(const World& whole, const Ranks& ranks);
+Partition partition_of_rank(std::size_t rows, const BondTable& bonds, const Ranks& ranks);
 
 /// (B95): sum over the items of all ranks, block by block. T needs += and is copied as it lies.
 /// @param first_at  item with which the given row begins; rises with the row
 /// @param blocks    storage that is kept between calls
 /// @param over      over(first, last): the sum over these items, in their order
 template <class T, class First, class Over>
-T sum_blocks(const Partition& s, int threads, std::vector<T>& blocks, const First& first_at, const Over& over) {
+T sum_blocks(const Partition& s, int threads, std::vector<T>& blocks, const First& first_at,
+             const Over& over) {
   const auto block_at = [&](std::size_t row) { return (row + s.block - 1) / s.block; };
   const Rows mine = s.owned();
   const std::size_t begin = block_at(mine.first), end = block_at(mine.last);
@@ -129,7 +126,8 @@ void for_owned_entries(const Partition& s, std::span<const Row> list, const Work
 
 /// The owned ones of values that stand beside such a list, at the root.
 template <class T>
-std::vector<T> gather_owned_entries(const Partition& s, std::span<const Row> list, std::span<const T> values) {
+std::vector<T> gather_owned_entries(const Partition& s, std::span<const Row> list,
+                                    std::span<const T> values) {
   std::vector<T> mine;
   for_owned_entries(s, list, [&](std::size_t k) { mine.push_back(values[k]); });
   return gather_elements(s.ranks, std::span<const T>(mine));
@@ -156,32 +154,5 @@ template <class T, class Table, class Term>
 T sum_pairs(const Partition& s, const Table& t, int threads, std::vector<T>& blocks, const Term& term) {
   return sum_pair_ranges(s, t, threads, blocks, each<T>(term));
 }
-
-/// The part of a whole world that one rank runs; the root keeps the whole one beside it.
-World distribute(World whole, const Ranks& ranks);
-
-/// Brings what has changed since to the root's whole world. @returns it; elsewhere the world itself, as stale
-/// as it is
-World& gather_to_root(World& world);
-
-/// The same of all but the tables of particles, bonds and contacts: clock, platens, mantle, ledger.
-World& gather_scalars(World& world);
-
-/// The root's whole world, as it was brought together last; of one rank the world itself.
-World& root_replica(World& world);
-
-/// Takes the cracks of all ranks since the last call into the whole record, in the order of time and of
-/// bonds, as of a row of the curve with this strain. @returns how many
-std::size_t collect_cracks(World& world, double axial_strain);
-
-/// The contacts that the root's whole world has listed anew, and the step that it has chosen, to every rank.
-void broadcast_contacts(World& world);
-
-/// Motion of the particles that other ranks' bonds and contacts hold goes out to them; it travels while the
-/// bonds that need none from elsewhere are passed over.
-void start_halo_exchange(World& world);
-/// The same of the other ranks' particles that this one holds comes in, where it is still on its way: before
-/// anyone looks at them.
-void finish_halo_exchange(World& world);
 
 }  // namespace breccia

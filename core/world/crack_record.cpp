@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/world/energies.hpp"
 #include "kernels/loops/bond_energy.hpp"
 
 namespace breccia {

@@ -2,107 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "core/base/threads.hpp"
-#include "core/world/world.hpp"
-#include "kernels/loops/bond_energy.hpp"
+#include <span>
 
 namespace breccia {
 namespace {
-
-/// What global damping does to a velocity (or a spin) that a force (or a torque) kicks.
-struct Braked {
-  double brake = 0;  ///< force of the brake over the velocity, which it opposes
-  Vec3 after;        ///< velocity half a step after the force
-};
-
-/// @param by_mass  dt/m, or dt/I
-Braked braked(const Vec3& force, const Vec3& velocity, double alpha, double by_mass) {
-  const double speed2 = dot(velocity, velocity);
-  const double brake = speed2 > 0.0 ? alpha * std::sqrt(dot(force, force) / speed2) : 0.0;
-  return {brake, velocity + by_mass * (force - brake * velocity)};
-}
-
-Braked braked_motion(const World& w, std::size_t row) {
-  const ParticleTable& p = w.particles;
-  Vec3 force = p.force[row], velocity = p.velocity[row];
-  const bool held = row >= p.free;
-  if (held) force.z = velocity.z = 0.0;  // a smooth platen leaves two directions free
-  Braked b = braked(force, velocity, w.options.global_damping.translation, w.dt / p.mass[row]);
-  if (!held) return b;
-  const Vec3& platen = w.platens.velocity[row >= w.first_top];
-  if (w.platens.rough) return {0.0, platen};
-  b.after.z = platen.z;
-  return b;
-}
-
-/// Work over the two half steps around the present forces, J, and the kinetic energy.
-struct StepWork : MotionWork {
-  double held_this = 0, held_next = 0;  ///< by platens
-  StepWork& operator+=(const StepWork& o) {
-    kinetic += o.kinetic, held_this += o.held_this, held_next += o.held_next;
-    motion_this += o.motion_this, motion_next += o.motion_next;
-    spin_this += o.spin_this, spin_next += o.spin_next;
-    return *this;
-  }
-};
-
-/// What the platen does to a row that it holds: it prescribes z, and x and y where it is rough.
-/// (B49)
-void add_platen(const World& w, std::size_t row, const Vec3& after, StepWork& s) {
-  const ParticleTable& p = w.particles;
-  const Vec3& v = p.velocity[row];
-  Vec3 reaction = (p.mass[row] / w.dt) * (after - v) - p.force[row];
-  if (!w.platens.rough) reaction.x = reaction.y = 0.0;
-  s.held_this = 0.5 * w.dt * dot(reaction, v);
-  s.held_next = 0.5 * w.dt * dot(reaction, after);
-}
-
-/// On a row that a platen holds.
-StepWork work_on_held(const World& w, std::size_t row) {
-  const ParticleTable& p = w.particles;
-  const double half = 0.5 * w.dt, m = p.mass[row];
-  StepWork s;
-  Vec3 v = p.velocity[row];
-  Braked motion = braked_motion(w, row);
-  s.kinetic = 0.5 * m * dot(v, motion.after);
-  add_platen(w, row, motion.after, s);
-  v.z = motion.after.z = 0.0;
-  s.motion_this = half * motion.brake * dot(v, v), s.motion_next = half * motion.brake * dot(v, motion.after);
-  if (p.spin.empty() || !w.options.features.rotation) return s;
-  const Vec3& spin = p.spin[row];
-  const double i = inertia(inertia_factor(w), m, p.radius[row]);
-  const Braked turn = braked(p.torque[row], spin, w.options.global_damping.rotation, w.dt / i);
-  s.kinetic += 0.5 * i * dot(spin, turn.after);
-  s.spin_this = half * turn.brake * dot(spin, spin), s.spin_next = half * turn.brake * dot(spin, turn.after);
-  return s;
-}
-
-/// J, of damage in the normal direction, a function of the state. (B52)
-double normal_damage(const World& w) {
-  if (!w.features.breakage || w.features.criterion == Criterion::coupled) return 0.0;
-  std::vector<double> blocks;
-  const BondTable& b = w.bonds;
-  return std::visit(
-      [&](const auto& law) {
-        return sum_pairs(w.partition, b, w.options.threads, blocks, [&](std::size_t k) {
-          const double damage = b.damage_normal[k];
-          if (!(damage > 0.0)) return 0.0;
-          const BondConstants<double> bond = constants_of_bond(b, k);
-          return damage_energy(damage, limits_of(law, bond).tension, bond.stiffness,
-                               delta_normal(law.failure, strain_length(law.young, bond)));
-        });
-      },
-      w.law);
-}
-
-struct SkinWork {
-  double over_this = 0, over_next = 0;  ///< J
-  SkinWork& operator+=(const SkinWork& o) {
-    over_this += o.over_this, over_next += o.over_next;
-    return *this;
-  }
-};
 
 BondLosses<double> total_bond_losses(const EnergyLedger& ledger) {
   BondLosses<double> sum;
@@ -116,73 +19,21 @@ ContactLosses total_contact_losses(const EnergyLedger& ledger) {
   return sum;
 }
 
-/// Added up in the order of ranks: other numbers of ranks differ in the last digits.
-Losses losses_of_all(const World& w) {
-  const Ranks& ranks = w.partition.ranks;
-  const Losses mine = losses_of(w.ledger);
-  if (ranks.alone()) return mine;
-  Losses sum;
-  for (const Losses& loss : gather_elements_everywhere(ranks, std::span(&mine, 1)))
-    add(sum.bonds, loss.bonds), add(sum.contacts, loss.contacts);
-  return sum;
-}
-
-/// The books begin at the forces of the first step: there was no step before it to end with them.
-void begin_ledger(World& w, const StepWork& work) {
-  EnergyLedger& ledger = w.ledger;
-  ledger.start = work.kinetic + stored_energy(w);
-  ledger.platens.add(0.0, work.held_next);
-  ledger.damped_motion.add(0.0, work.motion_next);
-  ledger.damped_spin.add(0.0, work.spin_next);
-  std::fill(ledger.bonds.begin(), ledger.bonds.end(), BondLosses<double>{});
-  std::fill(ledger.contacts.begin(), ledger.contacts.end(), ContactLosses{});
-}
-
 }  // namespace
 
-EnergyLedger make_ledger(const World& w) {
+EnergyLedger make_ledger(std::size_t bonds) {
   EnergyLedger ledger;
   ledger.enabled = true;
-  ledger.bonds.resize(force_blocks(w.bonds.padded));
+  ledger.bonds.resize(force_blocks(bonds));
   ledger.owned_bonds = ledger.bonds.size();
   return ledger;
 }
 
-void renew_contacts(EnergyLedger& ledger, const ContactTable& contacts) {
+void start_contact_sums(EnergyLedger& ledger, const ContactTable& contacts) {
   if (!ledger.enabled) return;
   ledger.earlier_contacts = total_contact_losses(ledger);
   ledger.contacts.assign(force_blocks(contacts.padded), {});
   ledger.owned_contacts = force_blocks(contacts.size);
-}
-
-void account_motion(World& w) {
-  EnergyLedger& ledger = w.ledger;
-  if (!ledger.enabled) return;
-  std::vector<StepWork> blocks;
-  const Motion motion = motion_of(w);
-  const StepWork work =
-      sum_particle_ranges(w.partition, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
-        const std::size_t free = std::clamp(w.particles.free, first, last);
-        StepWork sum{w.work_of_free(motion, first, free, w.dt, w.options.global_damping)};
-        for (std::size_t row = free; row < last; ++row) sum += work_on_held(w, row);
-        return sum;
-      });
-  ledger.kinetic = work.kinetic;
-  if (w.step == 0) return begin_ledger(w, work);
-  ledger.platens.add(work.held_this, work.held_next);
-  ledger.damped_motion.add(work.motion_this, work.motion_next);
-  ledger.damped_spin.add(work.spin_this, work.spin_next);
-  if (w.confinement.rigid || w.confinement.rows.empty()) return;
-  std::vector<SkinWork> skin_blocks;
-  SkinWork skin;
-  if (w.confinement.pressure != 0.0)
-    skin = sum_listed(w.partition, w.confinement.rows, 1, skin_blocks, [&](std::size_t k) {
-      const Row row = w.confinement.rows[k];
-      const Vec3& force = w.confinement.force[k];
-      return SkinWork{0.5 * w.dt * dot(force, w.particles.velocity[row]),
-                      0.5 * w.dt * dot(force, braked_motion(w, row).after)};
-    });
-  ledger.pressure.add(skin.over_this, skin.over_next);
 }
 
 void add(BondLosses<double>& sum, const BondLosses<double>& loss) {
@@ -196,23 +47,6 @@ void add(ContactLosses& sum, const ContactLosses& loss) {
 
 Losses losses_of(const EnergyLedger& ledger) {
   return {total_bond_losses(ledger), total_contact_losses(ledger)};
-}
-
-EnergyBalance balance(const World& w) {
-  const EnergyLedger& ledger = w.ledger;
-  EnergyBalance e;
-  e.work = ledger.platens.done + ledger.pressure.done + ledger.start;  // (B49)
-  e.kinetic = ledger.kinetic;
-  e.stored = stored_energy(w, w.dt);  // (B50)
-  const Losses losses = losses_of_all(w);
-  const auto& [bonds, contacts] = losses;
-  e.plastic = bonds.plastic;
-  e.damage = bonds.damage + normal_damage(w);
-  e.friction = bonds.friction + contacts.friction;
-  e.failure = bonds.failure;
-  e.contact_viscous = bonds.viscous + contacts.viscous;
-  e.global_damping = ledger.damped_motion.done + ledger.damped_spin.done;  // (B56)
-  return e;
 }
 
 void record_balance(EnergyLedger& ledger, const EnergyBalance& e) {

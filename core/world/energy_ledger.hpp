@@ -14,8 +14,6 @@
 
 namespace breccia {
 
-struct World;
-
 /// (B48): the trapezoid of a force in two halves: its work at the end of step n over dx(n) is known
 /// at once, that over dx(n+1) belongs to the step to come.
 struct TrapezoidSum {
@@ -82,18 +80,12 @@ Losses losses_of(const EnergyLedger& ledger);
 void add(BondLosses<double>& sum, const BondLosses<double>& loss);
 void add(ContactLosses& sum, const ContactLosses& loss);
 
-/// Empty books for the bonds of a world.
-EnergyLedger make_ledger(const World& world);
+/// Nothing accounted for yet.
+/// @param bonds  rows of the loop, with padding
+EnergyLedger make_ledger(std::size_t bonds);
 
-/// After the list of contacts was made anew.
-void renew_contacts(EnergyLedger& ledger, const ContactTable& contacts);
-
-/// Books what platens, pressure and global damping do in this step: called when the forces are complete and
-/// the velocities are not yet kicked.
-void account_motion(World& world);
-
-/// At the end of the last step, of all ranks.
-EnergyBalance balance(const World& world);
+/// After the list of contacts was made anew: sums of its own, those before are kept as one.
+void start_contact_sums(EnergyLedger& ledger, const ContactTable& contacts);
 
 /// Takes note of a balance; the errors below are the largest of all that were noted.
 void record_balance(EnergyLedger& ledger, const EnergyBalance& balance);

@@ -4,6 +4,8 @@
 
 #include "core/base/error.hpp"
 #include "core/elastic/critical_step.hpp"
+#include "core/world/loop_views.hpp"
+#include "core/world/sync.hpp"
 #include "core/world/world.hpp"
 
 namespace breccia {

@@ -1,23 +1,9 @@
 // The step of a world: chosen at the start, looked at again when pairs that may touch are listed anew, and
 // lowered where they ask for it. docs/model.md, "Time step and mass scaling".
 #pragma once
-#include <cstdint>
-#include <utility>
-#include <vector>
-
-#include "core/elastic/dashpots.hpp"
+#include "core/world/world.hpp"
 
 namespace breccia {
-
-struct World;
-
-/// What is known about the step in use.
-struct StepMonitor {
-  double margin = 0;                         ///< of the stability number below 1, at the last look
-  std::vector<std::pair<Gid, Gid>> counted;  ///< contacts that were in it, rising
-  std::uint64_t looks = 0;                   ///< estimates after the first
-  double first_dt = 0;                       ///< s, what the run began with
-};
 
 /// Sets scaled masses, dashpots, critical step and step of a world whose bonds are complete.
 /// @throws BadInput when the safety asked for is beyond 1
@@ -25,7 +11,7 @@ void choose_step(World& world);
 
 /// After the contacts have been listed anew: sets their dashpots, and lowers the step, never raises it, where
 /// it is no longer below the critical one. The step stands while contacts that were not counted before
-/// cannot, by a proven bound, use up the room that there was; only then is the network looked at again.
+/// cannot, by a proven bound, use up the margin that there was; only then is the network looked at again.
 void revise_step(World& world);
 
 /// The dashpots of all bonds and contacts for the step in use.

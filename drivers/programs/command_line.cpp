@@ -11,11 +11,17 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <new>
+#include <cstdlib>
+#include <sstream>
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
+#include "drivers/programs/ending.hpp"
 #include "io/cases/case.hpp"
+#include "io/cases/keys_reference.hpp"
+#include "io/files/standard_streams.hpp"
+#include "io/text/message_line.hpp"
 
 namespace breccia {
 namespace {
@@ -28,10 +34,18 @@ void ask_to_stop(int) {
 }
 
 int end(const std::string& program, std::string_view what, int code) {
-  std::string line(what);
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  fmt::print(stderr, "{}: {}\n", program, line);
+  // fputs: nobody is left to be told when this line cannot be written
+  std::fputs(fmt::format("{}: {}\n", program, message_line(what)).c_str(), stderr);
   return code;
+}
+
+void set_signals() {
+  // both would end the program on the spot; ignored, the write fails, and its caller says so
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  struct sigaction action {};
+  action.sa_handler = ask_to_stop;
+  // SIGXCPU: a limit of time (ulimit -t) is near
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) sigaction(signal, &action, nullptr);
 }
 
 /// Of several ranks the root speaks. Another one has something to say only when it alone is in trouble: it waits for
@@ -39,7 +53,7 @@ int end(const std::string& program, std::string_view what, int code) {
 int end_rank(const Ranks& ranks, const std::string& program, std::string_view what, int code) {
   if (ranks.alone()) return end(program, what, code);
   if (!ranks.is_root()) {
-    std::this_thread::sleep_for(std::chrono::seconds(2));
+    std::this_thread::sleep_for(std::chrono::seconds(20));  // the root may be slow
     end(fmt::format("{}, rank {}", program, ranks.rank), what, code);
   } else {
     end(program, what, code);
@@ -61,21 +75,29 @@ int available_cores() {
 }
 
 std::optional<int> read_command_line(CLI::App& app, int argc, char** argv) {
+  open_standard_streams();
+  end_in_order(app.get_name());
+  set_signals();
+  const bool speaks = ranks_of_launcher().is_root();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return end(app.get_name(), fmt::format("{} (see {} --help)", error.what(), app.get_name()), 2);
+    std::ostringstream out, err;
+    const int code = app.exit(error, out, err) == 0 ? 0 : 2;
+    if (!speaks) return code;
+    if (code != 0)
+      return end(app.get_name(), fmt::format("{} (see {} --help)", error.what(), app.get_name()), code);
+    try {
+      print_out(out.str());  // --help, --version
+    } catch (const WriteError& trouble) {
+      return end(app.get_name(), trouble.what(), 4);
+    }
+    return 0;
   }
   return std::nullopt;
 }
 
 int run_body(const std::string& program, int threads, const std::function<void()>& body, bool several_ranks) {
-  struct sigaction action {};
-  action.sa_handler = ask_to_stop;
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
   Ranks ranks = ranks_of_launcher();
   if (!ranks.alone() && !several_ranks)
     return ranks.is_root()
@@ -85,15 +107,14 @@ int run_body(const std::string& program, int threads, const std::function<void()
                : 2;
   ranks = mpi_init();
   try {
+    try_threads(threads);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    set_hold(std::getenv("BRECCIA_HOLD"), interrupted);
     body();
-  } catch (const BadInput& error) {
-    return end_rank(ranks, program, error.what(), 2);
-  } catch (const SimulationBroke& error) {
-    return end_rank(ranks, program, error.what(), 3);
-  } catch (const WriteError& error) {
-    return end_rank(ranks, program, error.what(), 4);
-  } catch (const std::bad_alloc&) {
-    return end_rank(ranks, program, "not enough memory: use fewer spheres", 3);
+  } catch (...) {
+    const Ending ending = ending_of(std::current_exception());
+    return end_rank(ranks, program, ending.what, ending.code);
   }
   mpi_finalize();
   return interrupted() ? 130 : 0;
@@ -101,7 +122,7 @@ int run_body(const std::string& program, int threads, const std::function<void()
 
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,
                 const std::function<void(const CommandLine&)>& body, const std::string& keys,
-                bool several_ranks) {
+                bool several_ranks, std::string (*reference)()) {
   const std::string program = "breccia-" + name;
   CommandLine line;
   line.program = name;
@@ -118,6 +139,13 @@ int run_program(const std::string& name, const std::string& about, int argc, cha
   app.add_flag("--force", line.force, "replace results that are there");
   app.add_flag("--quiet", line.quiet, "errors only");
   app.add_flag("--resume", line.resume, "go on from the newest checkpoint in the folder of results");
+  // for scripts/case-reference: left out of --help, which has the same keys
+  app.add_flag_callback("--keys-markdown",
+                        [reference] {
+                          throw CLI::CallForVersion(reference ? reference() : case_reference(),
+                                                    0);  // printed, then exit code 0
+                        })
+      ->group("");
   app.footer(keys.empty() ? describe_keys(name) : keys);
   if (const auto code = read_command_line(app, argc, argv)) return *code;
   if (line.out.empty()) line.out = std::filesystem::path("out") / line.case_file.stem();

@@ -24,7 +24,7 @@ struct CommandLine {
   bool explain = false, dry_run = false, force = false, quiet = false, resume = false;
 };
 
-/// True once SIGINT, SIGTERM or SIGUSR1 has come.
+/// True once SIGINT, SIGTERM, SIGUSR1 or SIGXCPU has come.
 bool interrupted();
 
 /// From here on a signal only makes `interrupted()` true; before, it ends the program at once.
@@ -33,8 +33,9 @@ void begin_results();
 /// Cores of the affinity mask.
 int available_cores();
 
-/// Reads the words after the program's name. @returns nothing when the program is to run; else its exit code,
-/// after --help, --version, or one line on stderr
+/// Readies the process (streams, signals) and reads the words after the program's name.
+/// @returns nothing when the program is to run; else its exit code, after --help, --version, or one line on stderr;
+/// of several ranks the root alone speaks
 std::optional<int> read_command_line(CLI::App& app, int argc, char** argv);
 
 /// Runs `body` on at most `threads` threads and turns what it throws into one line on stderr and the exit
@@ -48,9 +49,10 @@ int run_body(const std::string& program, int threads, const std::function<void()
 /// @param about  one line for --help
 /// @param keys   the reference of keys for --help; empty: describe_keys(name)
 /// @param several_ranks  false: more than one is refused
+/// @param reference  what --keys-markdown prints; nothing: case_reference
 int run_program(const std::string& name, const std::string& about, int argc, char** argv,
                 const std::function<void(const CommandLine&)>& body, const std::string& keys = {},
-                bool several_ranks = false);
+                bool several_ranks = false, std::string (*reference)() = nullptr);
 /// The same for a laboratory test, which runs on any number of ranks.
 int run_laboratory_test(const std::string& name, const std::string& about, int argc, char** argv,
                         const std::function<void(const CommandLine&)>& body);

@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "io/cases/impact_case.hpp"
 #include "io/files/atomic_write.hpp"
+#include "io/files/digest.hpp"
 #include "io/files/run_folder.hpp"
 #include "io/results/impact_results.hpp"
 #include "io/results/progress.hpp"
@@ -41,8 +42,12 @@ void run_impact_program(const CommandLine& line) {
   if (line.explain || line.dry_run) return;
 
   begin_results();
-  claim_run_folder(line.out, line.force);
-  atomic_write(line.out / "case.toml", c.resolved);
+  const bool same = is_resolved_already(line.out, line.case_file, c.resolved);
+  FolderUse use{{"curve-0.csv", "summary.json"}, {line.case_file}};
+  if (!same) use.writes.emplace_back("case.toml");
+  const std::string digest = sha256_of(line.case_file);
+  const FolderLock lock = claim_run_folder(line.out, line.force ? Old::replace : Old::refuse, use);
+  if (!same) atomic_write(line.out / "case.toml", c.resolved);
   ImpactResult result;
   try {
     run_impact(c.scene, result, interrupted);
@@ -51,7 +56,7 @@ void run_impact_program(const CommandLine& line) {
     throw;
   }
   write_impact_curve(line.out / "curve-0.csv", result.rows);
-  write_impact_summary(line.out / "summary.json", c.scene, result);
+  write_impact_summary(line.out / "summary.json", c.scene, result, {{line.case_file.string(), digest}});
   say(progress, fmt::format("{} steps in {:.2f} s; kinetic energy {:.6g} J before, {:.6g} J after\n",
                             result.steps, result.run_time, result.kinetic_before, result.kinetic_after));
   say(progress, format_impact_table(result));

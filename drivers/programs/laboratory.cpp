@@ -6,11 +6,16 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
+#include "core/distributed/distribute.hpp"
+#include "core/distributed/gather.hpp"
 #include "core/loading/summarise.hpp"
+#include "core/world/make_world.hpp"
 #include "core/world/stress.hpp"
 #include "drivers/programs/prepare_specimen.hpp"
 #include "io/cases/changed_keys.hpp"
 #include "io/files/atomic_write.hpp"
+#include "io/files/digest.hpp"
 #include "io/files/run_folder.hpp"
 #include "io/results/checkpoint.hpp"
 #include "io/results/cracks_csv.hpp"
@@ -147,7 +152,13 @@ void begin_frames(const RunOfSeries& run, const World& w, const LoadTest& load, 
   if (run.c.frames == 0) return;
   bool fresh = false;
   if (run.ranks.is_root()) {
-    if (!fs::exists(results)) create_results(results, run.c.resolved);
+    std::error_code ignored;
+    if (!fs::exists(results, ignored)) {
+      if (run.k > 0)
+        say(run.progress,
+            fmt::format("{}: is not there; frames of the runs before are not made again", results.string()));
+      create_results(results, run.c.resolved);
+    }
     fresh = !resumed || !has_run(results, number);
   }
   if (!any(run.ranks, fresh)) return;
@@ -176,6 +187,16 @@ auto due_every(double every) {
     last = now;
     return true;
   };
+}
+
+using Digests = std::vector<std::pair<std::string, std::string>>;
+
+/// Names as seen from a folder, or as they are.
+Digests digests_of(const fs::path& folder, const std::vector<fs::path>& files) {
+  Digests digests;
+  for (const fs::path& file : files)
+    digests.emplace_back((folder.empty() ? file : file.lexically_relative(folder)).string(), sha256_of(file));
+  return digests;
 }
 
 /// One run; its files are written even when it breaks off.
@@ -223,6 +244,12 @@ RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const st
   const MaterialNote& note = run.c.material_notes[run.k];
   summary.material_values = note.from;
   if (!note.warning.empty()) summary.warnings.push_back(note.warning);
+  summary.files = digests_of(run.folder, {curve});
+  if (crack_file) {
+    // on the disk before a checkpoint of the next run calls this one finished
+    flush_to_disk(crack_file->path());
+    summary.files = digests_of(run.folder, {curve, crack_file->path()});
+  }
   return summary;
 }
 
@@ -236,6 +263,17 @@ std::string result_line(const Case& c, std::size_t k, const std::string& test, c
                      run.run_time_s, run.bond_updates_per_s.value_or(0) * 1e-6);
 }
 
+/// Looks at the files of finished runs, which nothing makes again.
+void check_files(const fs::path& folder, const Digests& files) {
+  for (const auto& [name, digest] : files) {
+    std::error_code ignored;
+    const fs::path file = folder / name;
+    if (!fs::exists(file, ignored) || sha256_of(file) != digest)
+      fail<BadInput>("{}: {} since its run was finished; put it back as it was, or run anew with --force",
+                     file.string(), fs::exists(file, ignored) ? "has changed" : "has gone");
+  }
+}
+
 /// What `--resume` finds in the folder of results.
 struct WorkDone {
   std::optional<FoundCheckpoint> checkpoint;
@@ -244,13 +282,16 @@ struct WorkDone {
 
 void refuse_changes(const fs::path& file, const std::string& before, const Case& c) {
   const std::vector<std::string> changed = changed_keys(before, c.resolved);
-  if (changed.empty()) return;
+  if (changed.empty() && has_same_specimen(before, c.resolved)) return;
+  if (changed.empty())
+    fail<BadInput>("{}: has changed since {} was written; resume with it as it was, or run anew with --force",
+                   c.specimen.file->string(), file.string());
   fail<BadInput>(
       "{}: the case has changed since: {}; resume with the case as it was, or run it anew with --force",
       file.string(), fmt::join(changed, "; "));
 }
 
-/// @throws BadInput when the case has changed since, naming the keys
+/// @throws BadInput when the case has changed since, naming the keys; when an input, or what has been done, has
 WorkDone find_work(const CommandLine& line, const Case& c, Progress& progress) {
   WorkDone work;
   if (!line.resume) return work;
@@ -258,13 +299,36 @@ WorkDone find_work(const CommandLine& line, const Case& c, Progress& progress) {
   work.checkpoint = find_checkpoint(line.out, [&](const std::string& text) { say(progress, text); });
   if (work.checkpoint) {
     refuse_changes(work.checkpoint->file, work.checkpoint->head.case_text, c);
+    if (line.ranks.is_root())
+      for (const RunSummary& run : read_runs(work.checkpoint->head.finished))
+        check_files(line.out, run.files);
     return work;
   }
-  if (fs::exists(case_file)) refuse_changes(case_file, read_text(case_file), c);
-  work.all = finished_runs(line.out / "summary.json") == c.test.confinement.size();
+  std::error_code ignored;
+  if (fs::exists(case_file, ignored)) refuse_changes(case_file, read_text(case_file), c);
+  const FinishedRuns finished = finished_runs(line.out / "summary.json");
+  work.all = finished.count == c.test.confinement.size();
+  if (work.all && line.ranks.is_root()) check_files(line.out, finished.files);
   say(progress, work.all ? fmt::format("{}: finished, nothing to do", line.out.string())
                          : fmt::format("{}: no checkpoint, begins at the start", line.out.string()));
   return work;
+}
+
+/// What a series writes into its folder.
+/// @param goes_on  from a checkpoint: the resolved case is there
+std::vector<std::string> written_by(const Case& c, const CommandLine& line, bool goes_on) {
+  std::vector<std::string> names{"summary.json", "checkpoint.h5", "checkpoint-before.h5"};
+  if (!goes_on && !is_resolved_already(line.out, c.source, c.resolved)) names.emplace_back("case.toml");
+  if (c.frames > 0) names.emplace_back("results.h5");
+  for (std::size_t k = 0; k < c.test.confinement.size(); ++k) {
+    names.push_back(fmt::format("curve-{}.csv", k));
+    if (c.cracks) names.push_back(fmt::format("cracks-{}.csv", k));
+    if (c.frames == 0) continue;
+    names.push_back(fmt::format("frames/run-{}.pvd", k));
+    for (const char* what : {"particles", "bonds"})
+      names.push_back(fmt::format("frames/run-{}/{}-*.vtp", k, what));
+  }
+  return names;
 }
 
 }  // namespace
@@ -273,6 +337,9 @@ void run_test_program(const CommandLine& line) {
   const Case c = load_case(line.case_file, line.sets, line.program);
   const Ranks& ranks = line.ranks;
   Progress progress = make_progress(line.quiet || !ranks.is_root());
+  const bool writes = ranks.is_root() && !line.explain && !line.dry_run;
+  FolderLock lock;  // before anything that another run may be changing is looked at
+  if (line.resume && writes) lock = lock_folder_if_used(line.out);
   const WorkDone work = find_work(line, c, progress);
   if (work.all) return;
   const std::optional<FoundCheckpoint>& found = work.checkpoint;
@@ -290,16 +357,21 @@ void run_test_program(const CommandLine& line) {
 
   barrier(ranks);  // until nobody reads what was there any more
   begin_results();
-  if (!found && ranks.is_root()) {
-    claim_run_folder(line.out, line.force || line.resume);
-    atomic_write(line.out / "case.toml", c.resolved);
-    if (c.frames > 0) create_results(line.out / "results.h5", c.resolved);
+  const Digests inputs = ranks.is_root() ? digests_of({}, c.inputs) : Digests{};
+  if (ranks.is_root()) {
+    const FolderUse use{written_by(c, line, found.has_value()), c.inputs};
+    const Old old = found ? Old::keep : line.force || line.resume ? Old::replace : Old::refuse;
+    lock = claim_run_folder(line.out, old, use, std::move(lock));
+    if (!found && !is_resolved_already(line.out, c.source, c.resolved))
+      atomic_write(line.out / "case.toml", c.resolved);
+    if (!found && c.frames > 0) create_results(line.out / "results.h5", c.resolved);
   }
   SeriesSummary series;
   series.test = line.program;
   series.version = BRECCIA_VERSION;
   series.threads = line.threads;
   series.ranks = ranks.count;
+  series.inputs = inputs;
   if (found) series.runs = read_runs(found->head.finished);
   Stopped stopped = Stopped::strain;
   for (std::size_t k = series.runs.size(); k < c.test.confinement.size() && stopped != Stopped::interrupted;
@@ -320,6 +392,7 @@ void run_test_program(const CommandLine& line) {
     fit_peaks(series);
     write_summary(line.out / "summary.json", series);
     say(progress, result_line(c, k, line.program, series.runs.back()));
+    hold_at(HoldPoint::run);
   }
   if (!ranks.is_root()) return;
   if (stopped != Stopped::interrupted) remove_checkpoints(line.out);

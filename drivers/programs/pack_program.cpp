@@ -53,8 +53,11 @@ void run_pack_program(const CommandLine& line) {
   if (line.explain && !c.unusual.empty())
     say(progress, fmt::format("defaults of this case\n  {}", fmt::join(c.unusual, "\n  ")));
   if (line.dry_run || line.explain) return;
-  claim_run_folder(line.out, line.force);
-  atomic_write(line.out / "case.toml", c.resolved);
+  const bool same = is_resolved_already(line.out, c.source, c.resolved);
+  FolderUse use{{"specimen.csv"}, c.inputs};
+  if (!same) use.writes.emplace_back("case.toml");
+  const FolderLock lock = claim_run_folder(line.out, line.force ? Old::replace : Old::refuse, use);
+  if (!same) atomic_write(line.out / "case.toml", c.resolved);
   write_specimen_csv(line.out / "specimen.csv", specimen);
   say(progress, fmt::format("files: {}, {}", (line.out / "case.toml").string(),
                             (line.out / "specimen.csv").string()));

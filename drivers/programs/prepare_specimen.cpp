@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "core/bonding/law_of_material.hpp"
 #include "core/bonding/section_area.hpp"
 #include "core/elastic/elastic_network.hpp"
@@ -33,6 +34,7 @@ Specimen make_specimen(const Case& c, Progress& progress) {
     try {
       say(progress, fmt::format("packing {} {}", spheres_of(s.body, *s.pack),
                                 s.space == Space::two_d ? "discs" : "spheres"));
+      hold_at(HoldPoint::packing);
       return pack_spheres(s.body, *s.pack);
     } catch (const BadPacking& bad) {
       const std::string key = "specimen.pack." + bad.key;

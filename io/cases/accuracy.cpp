@@ -6,8 +6,7 @@ namespace breccia {
 namespace {
 
 constexpr std::array fast{RecipeDefault{"damping.scheme", "summed"}, RecipeDefault{"time.safety", "0.95"},
-                          RecipeDefault{"time.mass_scaling", "true"},
-                          RecipeDefault{"time.mass_factor", "2"},
+                          RecipeDefault{"time.mass_scaling", "true"}, RecipeDefault{"time.mass_factor", "2"},
                           RecipeDefault{"features.energy_ledger", "false"}};
 constexpr std::array reference{RecipeDefault{"time.safety", "0.4"},
                                RecipeDefault{"test.platen_speed", "0.05 m/s"}};

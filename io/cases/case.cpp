@@ -8,7 +8,10 @@
 #include "io/cases/keys_material.hpp"
 #include "io/cases/keys_write.hpp"
 #include "io/cases/material_table.hpp"
+#include "io/files/digest.hpp"
 #include "io/specimens/read_specimen.hpp"
+#include "io/text/input_file.hpp"
+#include "io/text/message_line.hpp"
 #include "io/text/suggest.hpp"
 
 namespace breccia {
@@ -113,6 +116,7 @@ struct Checks {
       no("specimen.axis",
          "missing; a Brazilian test must know the axis of the disc in the file: \"x\", \"y\" or \"z\"");
     if (c.specimen.file) return;
+    if (has("specimen.sha256")) no("specimen.sha256", "belongs to specimen.file; leave it out");
     packing();
   }
 
@@ -305,16 +309,35 @@ std::filesystem::path find_specimen(const std::filesystem::path& case_file, cons
     refuse(given.place, "specimen.file", error.what());
   }
   std::error_code ignored;
-  if (std::filesystem::is_regular_file(file, ignored)) return file;
-  std::vector<std::string> names;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", ignored))
-    if (entry.path().extension() == file.extension()) names.push_back(entry.path().filename().string());
-  const std::string best = nearest(file.filename().string(), names);
+  if (std::filesystem::exists(file, ignored)) {
+    if (const std::string why = why_no_file(file); !why.empty())
+      refuse(given.place, "specimen.file", fmt::format("{}: {}", file.string(), why));
+    return file;
+  }
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  const std::string best = nearest(file.filename().string(), names_in(folder, file.extension()));
   refuse(given.place, "specimen.file",
          fmt::format("no file {}{}", quote(file.string()),
                      best.empty() ? "; the path starts at the case's folder"
                                   : "; did you mean " + quote(best) + "?"));
+}
+
+/// The resolved case names the file by its whole path, and by its content.
+/// @returns the digest of what it holds
+std::string resolve_specimen(const std::filesystem::path& file, Layer& layer) {
+  Given& given = layer.find("specimen.file")->second;
+  const std::string whole = std::filesystem::absolute(file).lexically_normal().string();
+  if (!is_utf8(whole))
+    refuse(
+        given.place, "specimen.file",
+        fmt::format("{}: this path is not UTF-8, as a case must be: rename the folder or the file", whole));
+  given.reading.word = whole;
+  Given& digest = layer["specimen.sha256"];
+  const std::string now = sha256_of(file);
+  if (!digest.reading.word.empty() && digest.reading.word != now)
+    refuse(digest.place, "specimen.sha256",
+           fmt::format("{} has changed since; put it back as it was, or leave this line out", file.string()));
+  return digest.reading.word = now;
 }
 
 }  // namespace
@@ -326,6 +349,9 @@ std::string place_of(const Case& c, std::string_view key) {
 
 Case load_case(const std::filesystem::path& file, const std::vector<std::string>& sets,
                const std::string& test) {
+  Case c;
+  c.source = file;
+  c.inputs = {file};
   Source from_file = read_case_source(read_toml(file), test);
   const Source from_set = read_set_source(sets, test);
   for (const std::string& table : from_set.tables) erase_below(from_file.layer, table);
@@ -348,6 +374,7 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   if (from_set.at) layers.given_at = *from_set.at;
   if (const auto preset = layer.find("material.preset"); preset != layer.end()) {
     Source source = read_preset(preset->second.reading.word, place_of("material.preset"), file.parent_path());
+    c.inputs.push_back(source.file);
     layers.preset = std::move(source.layer);
     if (source.at) layers.preset_at = std::move(*source.at);
   }
@@ -374,8 +401,6 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
     if (takes_standard(key, layer, test))
       layer[std::string(key.name)] = {read_default(key, test, plane ? Space::two_d : Space::three_d), ""};
 
-  Case c;
-  c.source = file;
   for (const Key& key : all_keys())
     if (const auto given = layer.find(key.name); given != layer.end() && key.store)
       key.store(c, given->second.reading);
@@ -391,9 +416,9 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   }
   if (test != "pack") checks.loading(), checks.idle_keys();
   if (c.specimen.file) {
-    Given& given = layer.find("specimen.file")->second;
-    c.specimen.file = find_specimen(file, given);
-    given.reading.word = std::filesystem::absolute(*c.specimen.file).lexically_normal().string();
+    c.specimen.file = find_specimen(file, layer.find("specimen.file")->second);
+    c.specimen.sha256 = resolve_specimen(*c.specimen.file, layer);
+    c.inputs.push_back(*c.specimen.file);
   }
   c.unusual = unusual_defaults(layer, test == "pack" ? Layer{} : base, standards);
   if (test == "pack") {

@@ -16,6 +16,7 @@ namespace breccia {
 
 struct SpecimenCase {
   std::optional<std::filesystem::path> file;  ///< the case's folder in front
+  std::string sha256;                         ///< of the file, 64 hex digits
   std::optional<PackRequest> pack;
   Space space = Space::three_d;
   Body body;                   ///< a disc in the plane: its height is its diameter
@@ -64,7 +65,8 @@ struct MaterialNote {
 };
 
 struct Case {
-  std::filesystem::path source;  ///< the case file
+  std::filesystem::path source;               ///< the case file
+  std::vector<std::filesystem::path> inputs;  ///< all that was read: the case, its preset, its specimen
   SpecimenCase specimen;
   std::string preset;               ///< name of the material preset; empty: none
   std::vector<Material> materials;  ///< one per confinement, in the order of test.confinement

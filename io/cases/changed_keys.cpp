@@ -8,8 +8,10 @@
 namespace breccia {
 namespace {
 
+const std::string digest = "specimen.sha256";
+
 bool may_differ(const std::string& key) {
-  return key == "run.checkpoint_every" || key.starts_with("output.");
+  return key == "run.checkpoint_every" || key == digest || key.starts_with("output.");
 }
 
 /// Values by table.key. A resolved case has one key a line; an array of tables counts its elements.
@@ -33,8 +35,18 @@ std::map<std::string, std::string> values_of(const std::string& text) {
 
 }  // namespace
 
-std::vector<std::string> changed_keys(const std::string& before, const std::string& now) {
+bool has_same_specimen(const std::string& before, const std::string& now) {
   const auto old_values = values_of(before), new_values = values_of(now);
+  const auto was = old_values.find(digest), is = new_values.find(digest);
+  return was == old_values.end() || is == new_values.end() || was->second == is->second;
+}
+
+std::vector<std::string> changed_keys(const std::string& before, const std::string& now) {
+  auto old_values = values_of(before), new_values = values_of(now);
+  if (has_same_specimen(before, now) && old_values.contains(digest)) {  // wherever it lies
+    old_values.erase("specimen.file");
+    new_values.erase("specimen.file");
+  }
   std::vector<std::string> changed;
   for (const auto& [key, value] : new_values) {
     const auto old = old_values.find(key);

@@ -9,6 +9,7 @@
 #include "io/cases/keys_write.hpp"
 #include "io/text/suggest.hpp"
 #include "io/text/text_file.hpp"
+#include "io/text/toml_depth.hpp"
 
 namespace breccia {
 namespace {
@@ -49,6 +50,8 @@ void apply_set(TomlNode& root, const std::string& text) {
   const std::string name(trim(std::string_view(text).substr(0, equals)));
   if (equals == std::string::npos || name.find('.') == std::string::npos)
     fail<BadInput>("--set: {}: write --set table.key=value", quote(text));
+  if (line_nested_too_deep(name))
+    fail<BadInput>("--set: {}: nested more than {} deep", quote(name), deepest_toml);
   TomlNode* node = &root;
   std::size_t from = 0;
   for (std::size_t dot; (dot = name.find('.', from)) != std::string::npos; from = dot + 1)
@@ -68,7 +71,8 @@ void apply_set(TomlNode& root, const std::string& text) {
 Reading standard_reading(const Key& key) {
   if (key.kind != Kind::quantities) return read_default(key, program);
   Reading reading;
-  for (const std::string& number : split_words(key.default_text)) reading.numbers.push_back(std::stod(number));
+  for (const std::string& number : split_words(key.default_text))
+    reading.numbers.push_back(std::stod(number));
   return reading;
 }
 

@@ -184,6 +184,7 @@ void lay_over(Layer& low, const Layer& high) {
     const Key* key = find_key(name);
     if (const Key* other = key ? rival(*key) : nullptr; other && !high.contains(other->name))
       if (const auto hidden = low.find(other->name); hidden != low.end()) low.erase(hidden);
+    if (name == "specimen.file" || name.starts_with(pack)) low.erase("specimen.sha256");
     if (name == "specimen.file") erase_below(low, pack);
     if (name.starts_with(pack)) low.erase("specimen.file");
     low[name] = given;

@@ -1,5 +1,6 @@
 // A case is laid in layers: preset, case file, --set; what a higher layer gives hides what lies below.
 #pragma once
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ struct ConfinementLayer {
 
 /// What one file, or all --set together, give.
 struct Source {
+  std::filesystem::path file;  ///< of a preset
   Layer layer;
   std::optional<std::vector<ConfinementLayer>> at;  ///< nothing: no [[material.at]] written
   std::vector<std::string> tables;                  ///< tables that a --set replaces wholly

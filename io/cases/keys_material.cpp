@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "core/base/error.hpp"
+#include "io/text/input_file.hpp"
 #include "io/text/suggest.hpp"
 #include "kernels/laws/bond_laws.hpp"
 
@@ -30,10 +31,9 @@ std::vector<std::filesystem::path> material_folders(const std::filesystem::path&
 
 std::vector<std::string> presets_in(const std::vector<std::filesystem::path>& folders) {
   std::vector<std::string> names;
-  std::error_code ignored;
   for (const auto& folder : folders)
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    for (const std::string& name : names_in(folder, ".toml"))
+      names.push_back(name.substr(0, name.size() - 5));
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
@@ -74,7 +74,10 @@ Source read_preset(const std::string& name, const std::string& place,
   if (name.find('/') == std::string::npos)
     for (const auto& folder : folders) {
       const auto file = (folder / (name + ".toml")).lexically_normal();
-      if (std::filesystem::is_regular_file(file, ignored)) return read_preset_source(read_toml(file));
+      if (!std::filesystem::exists(file, ignored)) continue;
+      Source source = read_preset_source(read_toml(file));
+      source.file = file;
+      return source;
     }
   const auto present = presets_in(folders);
   if (present.empty())

@@ -41,18 +41,18 @@ struct Key {
   std::string_view name;  ///< with its table: "test.platen_speed"
   Kind kind = Kind::quantity;
   Dimension dimension{};
-  std::string_view default_text{};           ///< the default as one writes it; empty: none
-  std::string_view standard_for{};       ///< where a test has another: "bts=disc biaxial=smooth"
-  std::string_view default_2d{};  ///< where a 2-D scene has another and the test has none
+  std::string_view default_text{};  ///< the default as one writes it; empty: none
+  std::string_view standard_for{};  ///< where a test has another: "bts=disc biaxial=smooth"
+  std::string_view default_2d{};    ///< where a 2-D scene has another and the test has none
   Range range{};
   RangeWhere where{};
   std::string_view words{};       ///< valid words
-  std::string_view reserved{};       ///< words (or true) that a later version brings: refused by name
+  std::string_view reserved{};    ///< words (or true) that a later version brings: refused by name
   std::size_t count = 0;          ///< of quantities; 0: one or more
   bool rising = false;            ///< quantities never fall
   std::string_view instead_of{};  ///< the key that this one replaces
   std::string_view not_for{};     ///< tests that refuse it
-  std::string_view reason{};     ///< the reason
+  std::string_view reason{};      ///< the reason
   std::string_view meaning{};
   std::string_view law{};  ///< a parameter that this law alone has
   void (*store)(Case&, const Reading&) = nullptr;

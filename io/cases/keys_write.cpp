@@ -3,10 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
-#include "io/cases/accuracy.hpp"
-#include "io/cases/keys_material.hpp"
 #include "io/text/suggest.hpp"
-#include "kernels/laws/bond_laws.hpp"
 
 namespace breccia {
 namespace {
@@ -49,27 +46,6 @@ void write_at(std::string& text, const std::vector<ConfinementLayer>& groups, co
   }
 }
 
-std::string_view word_of_name(std::string_view name) { return name.substr(name.rfind('.') + 1); }
-
-/// The default of a test, and who has another: a law, a recipe, a scene in two dimensions.
-std::string describe_standard(const Key& key, const std::string& test) {
-  const std::string_view standard = default_text_of(key, test), plane = default_text_of(key, test, Space::two_d);
-  std::string text(standard.empty() ? "-" : standard);
-  const auto other = [&](std::string_view value, std::string_view whose) {
-    if (!value.empty() && value != standard) text += fmt::format("; {}: {}", whose, value);
-  };
-  other(plane, "2-D");
-  if (test == "pack") return text;
-  for_each_law([&]<class Law>(const Law&) {
-    for (const LawDefault& of_law : Law::defaults)
-      if (of_law.key == key.name) other(of_law.value, Law::name);
-  });
-  for (const std::string& recipe : split_words(find_key("time.accuracy")->words))
-    for (const RecipeDefault& of_recipe : accuracy_recipe(recipe))
-      if (of_recipe.key == key.name) other(of_recipe.value, recipe);
-  return text;
-}
-
 }  // namespace
 
 std::string describe_values(const Key& key) {
@@ -87,7 +63,7 @@ std::string describe_values(const Key& key) {
   }
   std::string range = describe(key.range, key.dimension);
   if (!key.where.key.empty())
-    range += fmt::format(" ({} {}: {})", word_of_name(key.where.key), key.where.value,
+    range += fmt::format(" ({} {}: {})", key.where.key.substr(key.where.key.rfind('.') + 1), key.where.value,
                          describe(key.where.range, key.dimension));
   const std::string what = key.kind == Kind::whole_number ? "a whole number" : describe(key.dimension);
   const std::string list = key.kind != Kind::quantities ? ""
@@ -115,24 +91,6 @@ std::string write_case(const Layer& keys, const Layer& base, const std::vector<C
     write_line(text, key, given->second.reading);
   }
   end_material();
-  return text;
-}
-
-std::string describe_keys(const std::string& test) {
-  std::string text =
-      fmt::format("keys of a case for breccia-{} (a quantity: \"3.8 GPa\", or a bare number in SI)\n", test);
-  std::string_view table;
-  for (const Key& key : all_keys()) {
-    if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) continue;
-    if (table_of(key) != table) table = table_of(key), text += fmt::format("\n[{}]\n", table);
-    text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), describe_values(key),
-                        describe_standard(key, test), key.meaning);
-    if (key.name == "material.preset" && accepts(*find_key("test.confinement"), test))
-      text += fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",
-                          "a table [[material.at]]: keys of the material for one confinement; between two of "
-                          "them, and zero, values lie on straight lines; beyond the last one that one's hold, "
-                          "with a warning");
-  }
   return text;
 }
 

@@ -67,8 +67,10 @@ bool sum_of(std::ifstream& in, std::size_t bytes, std::uint64_t& value) {
 void append_checksum(const fs::path& file) {
   std::uint64_t value = 0;
   {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file, error);
     std::ifstream in(file, std::ios::binary);
-    if (!in || !sum_of(in, fs::file_size(file), value)) fail_to_write(file, errno);
+    if (error || !in || !sum_of(in, size, value)) fail_to_write(file, error ? error.value() : errno);
   }
   std::ofstream out(file, std::ios::binary | std::ios::app);
   out.write(mark.data(), mark.size());

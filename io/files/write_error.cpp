@@ -10,9 +10,10 @@ namespace {
 
 std::string_view cure_of(int error) {
   switch (error) {
+    case EFBIG:
+      return "the limit on the size of a file is reached (ulimit -f): raise it, or write less ([output])";
     case ENOSPC:
     case EDQUOT:
-    case EFBIG:
       return "free some space, or choose another folder with --out";
     case EACCES:
     case EPERM:
@@ -32,12 +33,12 @@ std::string_view cure_of(int error) {
 
 void fail_to_write(const std::filesystem::path& file, int error) {
   fail<WriteError>("cannot write {}: {}; {}", file.string(), std::generic_category().message(error),
-                    cure_of(error));
+                   cure_of(error));
 }
 
 void fail_to_write(const std::filesystem::path& file, std::string_view cause) {
   fail<WriteError>("cannot write {}: {}; check the disk, or choose another folder with --out", file.string(),
-                    cause);
+                   cause);
 }
 
 }  // namespace breccia

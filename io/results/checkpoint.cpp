@@ -7,9 +7,11 @@
 #include <system_error>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
+#include "core/distributed/gather.hpp"
 #include "core/loading/saved_state.hpp"
+#include "core/stepping/resume.hpp"
 #include "core/tables/row_order.hpp"
-#include "core/world/resume.hpp"
 #include "io/files/atomic_write.hpp"
 #include "io/files/checksum.hpp"
 #include "io/files/disk_space.hpp"
@@ -22,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t format = 1;  ///< of the file; another one is not read
+constexpr std::uint64_t format = 2;  ///< of the file; another one is not read
 
 const ColumnInfo listed_position{"Vec3",      "listed_position", "m",
                                  Role::state, Need::always,      "centre when contacts were last listed"};
@@ -147,7 +149,12 @@ std::optional<std::string> read_head(const fs::path& path, CheckpointHead& head)
   if (!is_sealed(path)) return "its checksum is not that of what is in it";
   try {
     const h5::Handle file = h5::open_to_read(path.string());
-    if (h5::read_id_attribute(file, "format") != format) return "another version of breccia wrote it";
+    if (const std::uint64_t found = h5::read_id_attribute(file, "format"); found != format)
+      fail<BadInput>(
+          "{}: another version of breccia wrote it (format {}, this one reads {}): go on with that version, "
+          "or run "
+          "anew with --force",
+          path.string(), found, format);
     head = {h5::read_text_attribute(file, "case"), h5::read_id_attribute(file, "run"),
             h5::read_text_attribute(file, "finished")};
   } catch (const h5::Failure& failure) {
@@ -170,6 +177,7 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
       if (!std::ofstream(aside, std::ios::trunc)) fail_to_write(aside, errno);
       preallocate(aside, bytes_of_numbers(head, whole, state, result));
       begin_file(aside, head, whole, state, result);
+      hold_at(HoldPoint::checkpoint_begun);
       preallocate(aside, bytes_of_tables(whole));
     }
     barrier(ranks);
@@ -180,8 +188,10 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
     }
     barrier(ranks);
     if (!ranks.is_root()) return;
+    hold_at(HoldPoint::checkpoint_filled);
     append_checksum(aside);
     flush_to_disk(aside);
+    hold_at(HoldPoint::checkpoint_sealed);
   } catch (const std::exception& error) {
     std::error_code ignored;
     fs::remove(aside, ignored);
@@ -191,7 +201,9 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
   std::error_code error;
   if (fs::exists(file, error)) fs::rename(file, before(folder), error);
   if (error) fail_to_write(before(folder), error.value());
+  hold_at(HoldPoint::checkpoint_between);
   move_into_place(aside, file);
+  hold_at(HoldPoint::checkpoint);
 }
 
 std::optional<FoundCheckpoint> find_checkpoint(const fs::path& folder,
@@ -199,7 +211,7 @@ std::optional<FoundCheckpoint> find_checkpoint(const fs::path& folder,
   h5::prepare();
   for (const fs::path& file : {newest(folder), before(folder)}) {
     std::error_code ignored;
-    if (!fs::exists(file, ignored)) continue;
+    if (!fs::is_regular_file(file, ignored)) continue;
     FoundCheckpoint found{file, {}};
     const auto trouble = read_head(file, found.head);
     if (!trouble) return found;

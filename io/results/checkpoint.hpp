@@ -41,6 +41,7 @@ void write_checkpoint(const std::filesystem::path& folder, const CheckpointHead&
 
 /// The newest checkpoint that is whole; nothing where there is none.
 /// @param say  told, a line each, of those that are damaged
+/// @throws BadInput when another version wrote it
 std::optional<FoundCheckpoint> find_checkpoint(const std::filesystem::path& folder,
                                                const std::function<void(const std::string&)>& say);
 

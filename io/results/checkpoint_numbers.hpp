@@ -2,6 +2,8 @@
 // doubles or whole numbers. Written and read back to the same bits. Included by io/results/checkpoint.cpp alone.
 #pragma once
 #include <cstring>
+#include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -61,43 +63,27 @@ struct Flat<std::array<Vec3, n>> {
   }
 };
 
-/// A crack has both kinds: whole numbers are stored as doubles, which hold ids up to 2^53 exactly.
+/// A crack has both kinds. Its ends are stored apart, as whole numbers: a double holds ids only up to 2^53.
 template <>
 struct Flat<Crack> {
   using Number = double;
-  static constexpr std::size_t components = 15;
+  static constexpr std::size_t components = 13;
   static void put(const Crack& c, double* to) {
-    const double all[components] = {c.time,
-                                    c.axial_strain,
-                                    static_cast<double>(c.gid_lo),
-                                    static_cast<double>(c.gid_hi),
-                                    c.position.x,
-                                    c.position.y,
-                                    c.position.z,
-                                    c.normal.x,
-                                    c.normal.y,
-                                    c.normal.z,
-                                    static_cast<double>(c.mode),
-                                    c.normal_force,
-                                    c.shear_force,
-                                    c.area,
+    const double all[components] = {c.time,         c.axial_strain, c.position.x,
+                                    c.position.y,   c.position.z,   c.normal.x,
+                                    c.normal.y,     c.normal.z,     static_cast<double>(c.mode),
+                                    c.normal_force, c.shear_force,  c.area,
                                     c.energy};
     std::memcpy(to, all, sizeof(all));
   }
   static void take(Crack& c, const double* f) {
-    c = {f[0],
-         f[1],
-         static_cast<Gid>(f[2]),
-         static_cast<Gid>(f[3]),
-         {f[4], f[5], f[6]},
-         {f[7], f[8], f[9]},
-         static_cast<BondState>(f[10]),
-         f[11],
-         f[12],
-         f[13],
-         f[14]};
+    c = {f[0], f[1],  0,     0,    {f[2], f[3], f[4]}, {f[5], f[6], f[7]}, static_cast<BondState>(f[8]),
+         f[9], f[10], f[11], f[12]};
   }
 };
+
+using CrackEnds = std::pair<Gid, Gid>;
+inline std::string name_of_ends(const char* name) { return std::string(name) + "_ends"; }
 
 template <class Number>
 constexpr h5::Number kind_of = std::is_same_v<Number, double> ? h5::Number::real : h5::Number::id;
@@ -108,6 +94,13 @@ struct NumberWriter {
   template <class T, class Allocator>
   void operator()(const char* name, const std::vector<T, Allocator>& values) const {
     write(name, values.data(), values.size());
+  }
+  template <class Allocator>
+  void operator()(const char* name, const std::vector<Crack, Allocator>& cracks) const {
+    std::vector<CrackEnds> ends;
+    for (const Crack& c : cracks) ends.emplace_back(c.gid_lo, c.gid_hi);
+    write(name, cracks.data(), cracks.size());
+    write(name_of_ends(name).c_str(), ends.data(), ends.size());
   }
   template <class T>
   void operator()(const char* name, const T& value) const {
@@ -141,6 +134,11 @@ struct NumberCounter {
   void operator()(const char*, const std::vector<T, Allocator>& values) {
     add<T>(values.size());
   }
+  template <class Allocator>
+  void operator()(const char*, const std::vector<Crack, Allocator>& cracks) {
+    add<Crack>(cracks.size());
+    add<CrackEnds>(cracks.size());
+  }
   template <class T>
   void operator()(const char*, const T&) {
     add<T>(1);
@@ -161,6 +159,16 @@ struct NumberReader {
   void operator()(const char* name, std::vector<T, Allocator>& values) const {
     values.resize(h5::rows_of_dataset(group, name, Flat<T>::components));
     read(name, values.data(), values.size());
+  }
+  template <class Allocator>
+  void operator()(const char* name, std::vector<Crack, Allocator>& cracks) const {
+    const std::string ends_name = name_of_ends(name);
+    cracks.resize(h5::rows_of_dataset(group, name, Flat<Crack>::components));
+    std::vector<CrackEnds> ends(h5::rows_of_dataset(group, ends_name, Flat<CrackEnds>::components));
+    if (ends.size() != cracks.size()) throw h5::Failure(ends_name + " has another number of rows");
+    read(name, cracks.data(), cracks.size());
+    read(ends_name.c_str(), ends.data(), ends.size());
+    for (std::size_t k = 0; k < ends.size(); ++k) std::tie(cracks[k].gid_lo, cracks[k].gid_hi) = ends[k];
   }
   template <class T>
   void operator()(const char* name, T& value) const {

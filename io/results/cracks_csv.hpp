@@ -17,6 +17,7 @@ public:
   explicit CrackFile(const std::filesystem::path& file);
   /// Adds lines and hands them to the system. @throws WriteError
   void add(std::span<const Crack> cracks);
+  const std::filesystem::path& path() const { return path_; }
 
 private:
   std::filesystem::path path_;

@@ -49,11 +49,11 @@ std::string explain(const World& w) {
   text += feature_line(
       "breakage", asked.breakage, built.breakage,
       fmt::format("damage, failure, friction afterwards; criterion {}", name_of(built.criterion)));
-  text += feature_line(
-      "new contacts", w.options.new_contacts, w.options.new_contacts,
-      w.options.new_contacts
-          ? fmt::format("searched once a pair can meet: nearest are {:.3g} mm apart", w.neighbour_list.slack * 1e3)
-          : "surfaces pass through each other");
+  text += feature_line("new contacts", w.options.new_contacts, w.options.new_contacts,
+                       w.options.new_contacts
+                           ? fmt::format("searched once a pair can meet: nearest are {:.3g} mm apart",
+                                         w.neighbour_list.slack * 1e3)
+                           : "surfaces pass through each other");
   text += feature_line("energy ledger", w.options.ledger, w.options.ledger,
                        "where the work goes, and the error of the balance");
   if (!(asked == built))

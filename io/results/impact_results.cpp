@@ -50,7 +50,8 @@ std::vector<std::string> impact_warnings(const ImpactResult& result) {
 }
 
 void write_impact_summary(const std::filesystem::path& file, const ImpactScene& scene,
-                          const ImpactResult& result) {
+                          const ImpactResult& result,
+                          const std::vector<std::pair<std::string, std::string>>& inputs) {
   Json particles = Json::array();
   for (const ImpactRecord& p : result.particles)
     particles.push_back({{"id", p.gid},
@@ -73,12 +74,11 @@ void write_impact_summary(const std::filesystem::path& file, const ImpactScene& 
            {"stopped_by", result.interrupted ? "interrupted" : "duration"},
            {"warnings", impact_warnings(result)},
            {"particles", std::move(particles)}};
-  const Json all{{"test", "impact"},
-                 {"version", BRECCIA_VERSION},
-                 {"threads", scene.threads},
-                 {"ranks", 1},
-                 {"runs", Json::array({std::move(run)})}};
-  atomic_write(file, all.dump(2) + '\n');
+  Json files = Json::object();
+  for (const auto& [name, digest] : inputs) files[name] = digest;
+  const Json all{{"test", "impact"}, {"version", BRECCIA_VERSION}, {"threads", scene.threads},
+                 {"ranks", 1},       {"inputs", std::move(files)}, {"runs", Json::array({std::move(run)})}};
+  atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 std::string format_impact_table(const ImpactResult& result) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "io/files/standard_streams.hpp"
+
 namespace breccia {
 namespace {
 
@@ -19,7 +21,7 @@ std::string clock_time(double seconds) {
 }
 
 void clear(Progress& p) {
-  if (p.drawn) fmt::print("\r\033[K");
+  if (p.drawn) print_out("\r\033[K");
   p.drawn = false;
 }
 
@@ -43,7 +45,7 @@ void tell(Progress& p, const World& w, int stage, double fraction, const CurveRo
   if (p.quiet || seconds_since(p.last) < pause) return;
   p.last = steady_clock::now();
   const double elapsed = seconds_since(p.start);
-  const World& whole = w.partition.whole ? *w.partition.whole : w;
+  const World& whole = w.replica ? *w.replica : w;
   const double speed = static_cast<double>(whole.bonds.size) * static_cast<double>(w.step) / elapsed;
   const std::string left = fraction > 0.01 && stage == 2 ? clock_time(elapsed * (1.0 / fraction - 1.0)) : "-";
   const std::string line = fmt::format(
@@ -52,19 +54,17 @@ void tell(Progress& p, const World& w, int stage, double fraction, const CurveRo
       p.title, stage == 1 ? "hydrostatic" : "axial", 100.0 * fraction, w.step, row.axial_strain,
       row.axial_stress_Pa * 1e-6, row.broken_tension + row.broken_shear, speed * 1e-6, left);
   if (p.terminal) {
-    fmt::print("\r\033[K{}", line);
+    print_out("\r\033[K" + line);
     p.drawn = true;
   } else {
-    fmt::print("{}\n", line);
+    print_out(line + '\n');
   }
-  std::fflush(stdout);
 }
 
 void say(Progress& p, const std::string& line) {
   if (p.quiet) return;
   clear(p);
-  fmt::print("{}\n", line);
-  std::fflush(stdout);
+  print_out(line + '\n');
 }
 
 }  // namespace breccia

@@ -28,7 +28,7 @@ void begin(Progress& progress, const std::string& title);
 ///                  ends when the specimen has failed
 void tell(Progress& progress, const World& world, int stage, double fraction, const CurveRow& row);
 
-/// Any other line; clears the redrawn one first.
+/// Any other line; clears the redrawn one first. Both throw WriteError when nobody can read them.
 void say(Progress& progress, const std::string& line);
 
 }  // namespace breccia

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "io/files/atomic_write.hpp"
 #include "io/files/disk_space.hpp"
 #include "io/files/write_error.hpp"
@@ -40,7 +41,9 @@ std::size_t bytes_of(const Table& table, std::size_t rows, bool (*wanted)(Role))
   return bytes;
 }
 
-std::size_t owned_rows(const Partition& partition) { return partition.owned().last - partition.owned().first; }
+std::size_t owned_rows(const Partition& partition) {
+  return partition.owned().last - partition.owned().first;
+}
 
 constexpr std::size_t bytes_of_group = 65536;  ///< of the groups around the datasets, and their attributes
 constexpr unsigned usual_runs = 64, usual_frames = 128;  ///< more are possible, at a little more risk (below)
@@ -60,14 +63,21 @@ void append(const fs::path& path, const Ranks& ranks, const std::string& parent,
   h5::prepare();
   bytes = all_reduce_sum(ranks, bytes);
   if (ranks.is_root()) preallocate(path, bytes + bytes_of_group);
+  const auto hold = [&](HoldPoint point) {
+    if (ranks.is_root()) hold_at(point);
+  };
+  hold(HoldPoint::results_claimed);
   barrier(ranks);
   try {
     h5::Handle file = h5::open_file(path.string(), ranks);
     {
       const h5::Handle group = h5::create_unlinked_group(file, links);
       write(static_cast<hid_t>(group));
+      hold(HoldPoint::results_filled);
       h5::flush(file);
+      hold(HoldPoint::results_flushed);
       h5::link_as(group, file, parent, name);
+      hold(HoldPoint::results_linked);
     }  // a file closes only after its groups
     file.close("close");
   } catch (const h5::Failure& failure) {
@@ -102,7 +112,8 @@ void create_results(const fs::path& file, std::string_view case_text) {
 
 void begin_run(const fs::path& file, int run, std::span<const std::pair<std::string, double>> attributes,
                const Partition& partition, const ParticleTable& particles, const BondTable& bonds) {
-  const std::size_t bytes = bytes_of(particles, owned_rows(partition), stays) + bytes_of(bonds, bonds.size, stays);
+  const std::size_t bytes =
+      bytes_of(particles, owned_rows(partition), stays) + bytes_of(bonds, bonds.size, stays);
   append(file, partition.ranks, "/", name_of_run(run), bytes, usual_frames, [&](hid_t group) {
     for (const auto& [key, value] : attributes) h5::write_attribute(group, key.c_str(), value);
     write_columns(h5::create_group(group, "particles"), particles, file_order(partition, particles), stays,
@@ -120,8 +131,8 @@ bool has_run(const fs::path& file, int run) {
   }
 }
 
-void append_frame(const fs::path& file, int run, int frame, const FrameStamp& stamp, const Partition& partition,
-                  const ParticleTable& particles, const BondTable& bonds) {
+void append_frame(const fs::path& file, int run, int frame, const FrameStamp& stamp,
+                  const Partition& partition, const ParticleTable& particles, const BondTable& bonds) {
   const std::string name = fmt::format("frame-{:03}", frame);
   const std::size_t bytes = bytes_of(particles, owned_rows(partition), changes) +
                             bytes_of(bonds, bonds.size, changes) + bonds.size + 8192;

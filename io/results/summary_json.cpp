@@ -1,10 +1,11 @@
 #include "io/results/summary_json.hpp"
 
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/base/error.hpp"
 #include "io/files/atomic_write.hpp"
+#include "io/text/input_file.hpp"
 
 namespace breccia {
 namespace {
@@ -74,9 +75,17 @@ void for_each_rare_field(Run& run, Visit&& visit) {
   visit("cycles", run.cycles);
   visit("confining_stress_at_peak_Pa", run.confining_stress_at_peak_Pa);
   visit("material_values", run.material_values);
+  visit("files", run.files);
 }
 
 using Seconds = std::vector<std::pair<std::string, double>>;
+using Digests = std::vector<std::pair<std::string, std::string>>;
+
+Json of(const Digests& files) {
+  Json all = Json::object();
+  for (const auto& [name, digest] : files) all[name] = digest;
+  return all;
+}
 
 Json of(const Seconds& phases) {
   Json all = Json::object();
@@ -118,6 +127,9 @@ void take(const Json& json, std::optional<double>& value) {
 void take(const Json& json, Seconds& phases) {
   for (const auto& [name, seconds] : json.items()) phases.emplace_back(name, seconds.get<double>());
 }
+void take(const Json& json, Digests& files) {
+  for (const auto& [name, digest] : json.items()) files.emplace_back(name, digest.get<std::string>());
+}
 void take(const Json& json, std::vector<CycleSummary>& cycles) {
   for (const Json& one : json) {
     CycleSummary& cycle = cycles.emplace_back();
@@ -158,18 +170,32 @@ std::string runs_text(const std::vector<RunSummary>& runs) {
 
 std::vector<RunSummary> read_runs(const std::string& text) {
   std::vector<RunSummary> runs;
-  for (const Json& json : Json::parse(text)) runs.push_back(run_of(json));
+  try {
+    for (const Json& json : Json::parse(text)) runs.push_back(run_of(json));
+  } catch (const Json::exception& other) {
+    fail<BadInput>(
+        "the summary of the runs before is that of another version of breccia ({}); run anew with --force",
+        other.what());
+  }
   return runs;
 }
 
-std::size_t finished_runs(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  const Json all = Json::parse(in, nullptr, false);
-  if (!all.is_object() || !all.contains("runs") || !all["runs"].is_array()) return 0;
-  std::size_t finished = 0;
-  for (const Json& run : all["runs"])
-    finished += run.is_object() && run.value("stopped_by", "interrupted") != "interrupted";
-  return finished;
+FinishedRuns finished_runs(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return {};
+  try {
+    FinishedRuns finished;
+    const Json all = Json::parse(read_bytes(file));
+    for (const Json& run : all.at("runs")) {
+      if (run.at("stopped_by") == "interrupted") continue;
+      ++finished.count;
+      if (run.contains("files")) take(run.at("files"), finished.files);
+    }
+    return finished;
+  } catch (const Json::exception&) {
+    fail<BadInput>("{}: damaged, and there is no checkpoint; put it back as it was, or run anew with --force",
+                   file.string());
+  }
 }
 
 void write_summary(const std::filesystem::path& file, const SeriesSummary& series) {
@@ -179,6 +205,7 @@ void write_summary(const std::filesystem::path& file, const SeriesSummary& serie
            {"version", series.version},
            {"threads", series.threads},
            {"ranks", series.ranks}};
+  if (!series.inputs.empty()) all["inputs"] = of(series.inputs);
   if (series.mohr_coulomb) all["mohr_coulomb"] = of(*series.mohr_coulomb);
   if (!series.no_mohr_coulomb.empty()) all["no_mohr_coulomb"] = series.no_mohr_coulomb;
   all["runs"] = std::move(runs);

@@ -14,10 +14,16 @@ void write_summary(const std::filesystem::path& file, const SeriesSummary& serie
 
 /// The runs as JSON, and back: what a checkpoint keeps of the runs before it.
 std::string runs_text(const std::vector<RunSummary>& runs);
+/// @throws BadInput when another version wrote them
 std::vector<RunSummary> read_runs(const std::string& text);
 
-/// Runs of a summary.json that came to their end; 0 where there is no such file.
-std::size_t finished_runs(const std::filesystem::path& file);
+/// What a summary.json says of the runs that came to their end.
+struct FinishedRuns {
+  std::size_t count = 0;                                   ///< 0 where there is no such file
+  std::vector<std::pair<std::string, std::string>> files;  ///< of all of them: name and SHA-256
+};
+/// @throws BadInput when the file is damaged
+FinishedRuns finished_runs(const std::filesystem::path& file);
 
 /// For the terminal: a table with one line per run, the line of peaks if there is one, warnings, where the
 /// time went, where the files are. Columns without a value in any run are left out. Lines end with '\n'.

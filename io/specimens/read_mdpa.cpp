@@ -104,14 +104,19 @@ Block block_of(const Fields& fields, std::size_t count) {
 void read_block(Model& model, LineReader& reader, Block block, const std::string& begin) {
   Fields fields;
   std::string_view line;
+  std::vector<std::string> within;  // places where blocks within this one begin
   while (next_line(reader, line)) {
     const std::size_t count = split(line, fields);
-    if (fields[0] == "End") return;
-    if (fields[0] == "Begin") {
-      read_block(model, reader, Block::other, reader.place());
+    if (fields[0] == "End") {
+      if (within.empty()) return;
+      within.pop_back();
       continue;
     }
-    switch (block) {
+    if (fields[0] == "Begin") {
+      within.push_back(reader.place());
+      continue;
+    }
+    switch (within.empty() ? block : Block::other) {
       case Block::nodes:
         read_node(model, fields, count, reader);
         break;
@@ -128,7 +133,7 @@ void read_block(Model& model, LineReader& reader, Block block, const std::string
         break;
     }
   }
-  fail<BadInput>("{}: this block has no End", begin);
+  fail<BadInput>("{}: this block has no End", within.empty() ? begin : within.back());
 }
 
 std::vector<SpecimenSphere> spheres_of(const Model& model, const std::string& name) {

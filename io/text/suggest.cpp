@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "io/text/message_line.hpp"
+
 namespace breccia {
 namespace {
 
@@ -37,6 +39,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest = 200;  // nobody means a key by more than that, and to compare it takes long
+  if (word.size() > longest) return "";
   std::string best;
   std::size_t least = 3 * std::max<std::size_t>(1, word.size() / 3) + 1;  // a third of the letters may differ
   for (const std::string& candidate : candidates) {
@@ -54,9 +58,10 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 
 std::string quote(std::string_view text) {
   constexpr std::size_t longest = 80;
-  std::string result = "\"";
-  for (char c : text.substr(0, longest)) result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  return result + (text.size() > longest ? "...\"" : "\"");
+  std::string result = shortened(text, longest);
+  std::replace_if(
+      result.begin(), result.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  return '"' + result + '"';
 }
 
 std::string quote_list(const std::vector<std::string>& words) {

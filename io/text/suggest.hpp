@@ -18,7 +18,7 @@ std::string suggest(std::string_view word, const std::vector<std::string>& candi
 /// Words in double quotes with commas between them.
 std::string quote_list(const std::vector<std::string>& words);
 
-/// Text in double quotes on one line: control characters become blanks, a long text is cut.
+/// Text in double quotes on one line: control characters become blanks, a long text is shortened between words.
 std::string quote(std::string_view text);
 
 }  // namespace breccia

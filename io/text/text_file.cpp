@@ -2,12 +2,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <memory>
 #include <system_error>
 
 #include "core/base/error.hpp"
+#include "io/text/input_file.hpp"
 #include "io/text/suggest.hpp"
 
 namespace breccia {
@@ -24,20 +23,7 @@ std::string_view trim(std::string_view text) {
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  std::error_code trouble;
-  if (!std::filesystem::exists(file, trouble)) fail<BadInput>("{}: no such file", file.string());
-  if (std::filesystem::is_directory(file, trouble)) fail<BadInput>("{}: a folder, not a file", file.string());
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
-  if (!stream) fail<BadInput>("{}: cannot be read; are its rights as they should be?", file.string());
-  std::string text;
-  std::size_t got = 0, step = std::size_t{1} << 20;
-  do {
-    text.resize(text.size() + step);
-    got = std::fread(text.data() + text.size() - step, 1, step, stream.get());
-    text.resize(text.size() - step + got);
-    step = std::max(step, text.size());
-  } while (got > 0);
-  if (std::ferror(stream.get())) fail<BadInput>("{}: cannot be read to its end", file.string());
+  std::string text = read_bytes(file);
   if (trim(text).empty()) fail<BadInput>("{}: the file is empty", file.string());
   return text;
 }

@@ -7,7 +7,7 @@
 
 namespace breccia {
 
-/// The whole file. @throws BadInput: absent, a folder, unreadable, empty
+/// The whole file. @throws BadInput: absent, no file (a folder, a pipe), unreadable, empty
 std::string read_text(const std::filesystem::path& file);
 
 /// Walks through a text; every error names the file and the line.

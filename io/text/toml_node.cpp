@@ -3,12 +3,12 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "core/base/error.hpp"
+#include "io/text/input_file.hpp"
 #include "io/text/suggest.hpp"
 #include "io/text/text_file.hpp"
+#include "io/text/toml_depth.hpp"
 
 namespace breccia {
 namespace {
@@ -54,12 +54,8 @@ std::string one_line(std::string_view text) {
 }
 
 std::string nearest_file(const std::filesystem::path& file) {
-  std::vector<std::string> names;
-  std::error_code ignored;
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().filename().string());
-  const std::string best = nearest(file.filename().string(), names);
+  const std::string best = nearest(file.filename().string(), names_in(folder, ".toml"));
   return best.empty() ? "" : "; did you mean " + quote(best) + "?";
 }
 
@@ -69,13 +65,12 @@ TomlNode read_toml(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) fail<BadInput>("{}: no such file{}", name, nearest_file(file));
-  if (std::filesystem::is_directory(file, ignored)) fail<BadInput>("{}: a folder, not a file", name);
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) fail<BadInput>("{}: cannot be read", name);
+  const std::string text = read_bytes(file);
+  if (const auto line = line_nested_too_deep(text))
+    fail<BadInput>("{}:{}: nested more than {} deep; the keys of a case are table.key", name, *line,
+                   deepest_toml);
   try {
-    const toml::table table = toml::parse(text.str(), name);
+    const toml::table table = toml::parse(text, name);
     return Converter{name, true}.convert(table, 0);
   } catch (const toml::parse_error& error) {
     fail<BadInput>("{}:{}: not TOML: {}", name, error.source().begin.line, one_line(error.description()));
@@ -84,7 +79,7 @@ TomlNode read_toml(const std::filesystem::path& file) {
 
 TomlNode parse_toml_value(const std::string& text, const std::string& place) {
   const Converter converter{place, false};
-  if (text.find('\n') == std::string::npos) {
+  if (text.find('\n') == std::string::npos && !line_nested_too_deep(text)) {
     try {
       const toml::table table = toml::parse("value = " + text, std::string(place));
       if (table.size() == 1) return converter.convert(*table.get("value"), 0);

@@ -21,7 +21,7 @@ struct TomlNode {
 };
 
 /// Reads a TOML file.
-/// @throws BadInput: file (and line) with what is wrong: absent, a folder, empty of sense, not TOML
+/// @throws BadInput: file (and line) with what is wrong: absent, no file, nested too deep, not TOML
 TomlNode read_toml(const std::filesystem::path& file);
 
 /// Parses what stands behind "key=" on a command line: a TOML value, or the text itself as a string where it

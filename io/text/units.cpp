@@ -1,5 +1,6 @@
 #include "io/text/units.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -97,6 +98,8 @@ double shifted(std::string_view digits, int shift) {
   if (e != std::string_view::npos) {
     const std::size_t first = e + 1 + (digits[e + 1] == '+' ? 1 : 0);
     std::from_chars(digits.data() + first, digits.data() + digits.size(), exponent);
+    // "0e2147483647" is a zero too: beyond a thousand, all that is not zero is infinite or nothing
+    exponent = std::clamp(exponent, -1000, 1000);
   }
   const std::string text = fmt::format("{}e{}", digits.substr(0, e), exponent + shift);
   double value = 0;

@@ -18,9 +18,9 @@ namespace breccia {
 
 /// A key of [material] that one law alone has; read into Material::own.
 struct LawParameter {
-  std::string_view key, unit;  ///< unit: SI, "1" for a number
-  double low = 0;              ///< smallest value that makes sense
-  std::string_view default_text;   ///< default as one writes it; empty: must be given
+  std::string_view key, unit;     ///< unit: SI, "1" for a number
+  double low = 0;                 ///< smallest value that makes sense
+  std::string_view default_text;  ///< default as one writes it; empty: must be given
   std::string_view meaning;
   bool above = false;  ///< low itself makes no sense
 };

@@ -18,7 +18,7 @@ struct KdemLaw {
       LawParameter{"shear_factor", "1", 0.0, "1", "beta of the thesis' eq. 5.7, on k_s"},
   };
   static constexpr std::array defaults{LawDefault{"bonds.area", "polyhedron"},
-                                        LawDefault{"bonds.alpha", "1"}};
+                                       LawDefault{"bonds.alpha", "1"}};
   static constexpr std::array feature_sets{Features{.plasticity = false}};
 
   double young = 0;        ///< Pa, alpha E

@@ -12,6 +12,7 @@ from . import results
 from .body import Body, View
 from .errors import BadInput, FileTrouble
 from .events import events_of, gutenberg_richter
+from .owned import claim
 from .specimen import outline
 from .style import DISSIPATED, HALO, INK, SHEAR, SOFT, STORED, TENSION, condition, new_figure, plt, save
 
@@ -116,6 +117,7 @@ def write_events(events, path):
                *events.centre.T, events.energy, events.magnitude)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        claim(path)
         with path.open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(head)

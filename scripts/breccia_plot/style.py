@@ -10,6 +10,7 @@ from matplotlib import patheffects  # noqa: E402
 from PIL import Image  # noqa: E402
 
 from .errors import FileTrouble  # noqa: E402
+from .owned import claim  # noqa: E402
 
 MOST_BYTES = 300_000
 INK, SOFT = "#222222", "#6b6b6b"
@@ -121,6 +122,7 @@ def save(figure, path):
     try:
         png = smallest_loss(figure)
         path.parent.mkdir(parents=True, exist_ok=True)
+        claim(path)
         path.write_bytes(png)
     except OSError as reason:
         raise FileTrouble(f"{path} cannot be written: {reason.strerror or reason}") from reason

@@ -10,6 +10,10 @@
 #include <map>
 
 #include "core/bonding/law_of_material.hpp"
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/loop_views.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 namespace {

@@ -2,9 +2,8 @@
 """breccia-impact as a user calls it: files, repeatability, refusals."""
 import csv
 import json
-import unittest
 
-from programs import SOURCE, ProgramTest, run, tree
+from programs import SOURCE, ProgramTest, main, run, tree
 
 EXAMPLES = SOURCE / "data" / "cases"
 
@@ -56,4 +55,4 @@ class Impact(ProgramTest):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -5,11 +5,8 @@ import csv
 import json
 import signal
 import statistics
-import subprocess
-import time
-import unittest
 
-from programs import BIN, SOURCE, ProgramTest, run, tree
+from programs import ProgramTest, command, finish, main, plot, run, tree
 
 TINY = ("--spheres", "500,300", "--threads", "2,1", "--repeat", "3", "--block", "0.001")
 COLUMNS = ("spheres bonds threads bond_storage particle_storage sums ns_per_bond_median ns_per_bond_least ns_per_bond_most "
@@ -100,7 +97,7 @@ class Layouts(ProgramTest):
 
     def test_plot(self):
         pictures = self.work / "pictures"
-        result = subprocess.run([SOURCE / "scripts" / "plot", self.folder, "--out", pictures], capture_output=True, text=True)
+        result = plot(self.folder, "--out", pictures)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertIn("9 layouts, 2 sizes, 2 numbers of threads", result.stdout)
         self.assertEqual([path.name for path in pictures.iterdir()], ["layouts.png"])
@@ -109,7 +106,7 @@ class Layouts(ProgramTest):
     def test_plot_of_a_damaged_study(self):
         for text in ("{", "[]", '{"runs": []}', '{"study": "layouts", "runs": [{"threads": 1}]}'):
             (self.work / "layouts.json").write_text(text)
-            result = subprocess.run([SOURCE / "scripts" / "plot", self.work], capture_output=True, text=True)
+            result = plot(self.work)
             self.check_one_line(result, 2, "layouts.json")
 
 
@@ -131,8 +128,7 @@ class Refusals(ProgramTest):
         self.check_one_line(run("layouts", "--sphere", "300"), 2, "--sphere")
 
     def test_ranks(self):
-        result = subprocess.run([BIN / "breccia-layouts", "--out", self.out], capture_output=True, text=True,
-                                env={"OMPI_COMM_WORLD_SIZE": "2"})
+        result = run("layouts", "--out", self.out, env={"OMPI_COMM_WORLD_SIZE": "2"})
         self.check_one_line(result, 2, "2 ranks")
 
 
@@ -157,18 +153,12 @@ class Folders(ProgramTest):
         self.check_one_line(run("layouts", *self.ONE, "--out", self.write("file", "") / "out"), 4, "out")
 
     def test_interrupt_keeps_what_was_measured(self):
-        process = subprocess.Popen([BIN / "breccia-layouts", "--spheres", "300,500", "--threads", "1,2", "--repeat", "10",
-                                    "--out", self.out], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(process.kill)
-        for _ in range(600):
-            if (self.out / "layouts.json").exists():
-                break
-            time.sleep(0.1)
+        process = self.start_and_hold("measurement:1", *command("layouts", *self.ONE[2:], "--spheres", "300,400", "--out", self.out))
         process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=60)
+        _, err = finish(process)
         self.assertEqual((process.returncode, err), (130, ""))
-        self.assertGreaterEqual(len(json.loads((self.out / "layouts.json").read_text())["runs"]), len(LAYOUTS))
+        self.assertEqual(len(json.loads((self.out / "layouts.json").read_text())["runs"]), len(LAYOUTS))
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

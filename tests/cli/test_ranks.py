@@ -6,24 +6,25 @@ import os
 import shutil
 import signal
 import subprocess
-import time
 import unittest
 
 import h5py
 import numpy as np
 
-from programs import BIN, CONFINED, UCS, ProgramTest, run
+from programs import CONFINED, UCS, ProgramTest, command, finish, main, run, wait_until
 
-GATHER = ("--set", 'run.scatter="gather"')
+# platens so fast that a test takes some thousand steps: at every one of them ranks wait for each other
+GATHER = ("--set", 'run.scatter="gather"', "--set", "test.platen_speed=0.5")
 # as root and with more ranks than cores, as in a container
 ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 ENERGIES = ("dissipated_J", "work_J")  # books of ranks are added up in their order: the last digits differ
 
 
-def launch(ranks, program, *arguments):
-    words = ["mpirun", "-n", str(ranks), "--oversubscribe", "--bind-to", "none", BIN / f"breccia-{program}", *map(str, arguments)]
-    return subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ | ROOT)
+def mpirun(ranks, program, *arguments):
+    # a rank that waits gives its core to one that works: there may be fewer cores than ranks
+    return ["mpirun", "-n", str(ranks), "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
+            *command(program, *arguments)]
 
 
 @unittest.skipUnless(shutil.which("mpirun"), "mpirun is not installed")
@@ -37,8 +38,15 @@ class SeveralRanks(ProgramTest):
         result = run("triaxial", cls.one, *GATHER, "--out", cls.alone, "--threads", "1", "--quiet")
         assert result.returncode == 0, result.stderr
 
+    def launch(self, ranks, program, *arguments):
+        return self.start(*mpirun(ranks, program, *arguments), env=ROOT)
+
+    def launch_and_hold(self, point, ranks, program, *arguments):
+        """The root waits at a point of its way, and the others for it."""
+        return self.start_and_hold(point, *mpirun(ranks, program, *arguments), env=ROOT)
+
     def finish(self, process, code=0):
-        out, errors = process.communicate(timeout=300)
+        out, errors = finish(process)
         self.assertEqual(process.returncode, code, errors + out)
         return out, errors
 
@@ -68,7 +76,7 @@ class SeveralRanks(ProgramTest):
         for ranks, threads in ((2, 1), (4, 1), (3, 2)):
             with self.subTest(ranks=ranks, threads=threads):
                 out = self.work / f"ranks-{ranks}"
-                text, _ = self.finish(launch(ranks, "triaxial", self.one, *GATHER, "--out", out, "--threads", threads))
+                text, _ = self.finish(self.launch(ranks, "triaxial", self.one, *GATHER, "--out", out, "--threads", threads))
                 self.check_same(out)
                 self.assertEqual(json.loads((out / "summary.json").read_text())["ranks"], ranks)
                 self.assertEqual(text.count("300 spheres"), 1)
@@ -76,7 +84,7 @@ class SeveralRanks(ProgramTest):
     def test_results_are_the_same_file_whoever_wrote_it(self):
         written = self.work / "ranks"
         extra = ("--set", "output.stress=true", "--set", "output.frames=2", "--set", 'test.confinement=["0 MPa"]', "--threads", "1")
-        self.finish(launch(3, "triaxial", self.one, *GATHER, *extra, "--out", written, "--quiet"))
+        self.finish(self.launch(3, "triaxial", self.one, *GATHER, *extra, "--out", written, "--quiet"))
         alone = run("triaxial", self.one, *GATHER, *extra, "--out", self.out, "--quiet")
         self.assertEqual(alone.returncode, 0, alone.stderr)
         with h5py.File(written / "results.h5") as ours, h5py.File(self.out / "results.h5") as theirs:
@@ -98,7 +106,7 @@ class SeveralRanks(ProgramTest):
     def test_ranks_without_a_sphere(self):
         # 300 spheres have five blocks: two of seven ranks own nothing
         short = (*GATHER, "--set", "test.stop_strain=0.0003", "--set", 'test.confinement=["0 MPa"]', "--quiet", "--threads", "1")
-        self.finish(launch(7, "triaxial", self.one, *short, "--out", self.out))
+        self.finish(self.launch(7, "triaxial", self.one, *short, "--out", self.out))
         alone = run("triaxial", self.one, *short, "--out", self.work / "short")
         self.assertEqual(alone.returncode, 0, alone.stderr)
         ours, theirs = (json.loads((f / "summary.json").read_text())["runs"][0] for f in (self.out, self.work / "short"))
@@ -112,8 +120,8 @@ class SeveralRanks(ProgramTest):
         lines = [",".join([*row.values(), "0" if row is loose else "1"]) for row in spheres]
         self.write("specimen.csv", "\n".join(["id,x_m,y_m,z_m,r_m,group", *lines, ""]))
         case = self.write("loose.toml", UCS.replace("[test]", "[bonds]\nrange = 0.35\n[test]").replace("0.006", "0.001"))
-        often = ("--set", 'run.checkpoint_every="1 ms"', "--threads", "1", "--quiet")
-        self.finish(launch(2, "ucs", case, *GATHER, *often, "--out", self.out))
+        often = ("--set", 'run.checkpoint_every="1 us"', "--threads", "1", "--quiet")  # at every row
+        self.finish(self.launch(2, "ucs", case, *GATHER, *often, "--out", self.out))
         alone = run("ucs", case, *GATHER, *often, "--out", self.work / "one")
         self.assertEqual(alone.returncode, 0, alone.stderr)
         ours, theirs = (json.loads((f / "summary.json").read_text())["runs"][0] for f in (self.out, self.work / "one"))
@@ -122,17 +130,17 @@ class SeveralRanks(ProgramTest):
     def test_every_way_of_summing_comes_to_the_same_strength(self):
         strength = json.loads((self.alone / "summary.json").read_text())["runs"][1]["peak_stress_Pa"]
         for scatter in ("private", "atomic"):
-            self.finish(launch(2, "triaxial", self.one, "--set", f'run.scatter="{scatter}"', "--out", self.out, "--threads", 2,
-                               "--force", "--quiet"))
+            self.finish(self.launch(2, "triaxial", self.one, *GATHER, "--set", f'run.scatter="{scatter}"', "--out", self.out,
+                               "--threads", 2, "--force", "--quiet"))
             ours = json.loads((self.out / "summary.json").read_text())["runs"][1]["peak_stress_Pa"]
             self.assertAlmostEqual(ours / strength, 1, delta=0.05)
 
     def interrupt(self):
         """Two ranks, stopped while bonds break."""
-        process = launch(2, "triaxial", self.one, *GATHER, "--out", self.out, "--threads", 1, "--quiet")
-        self.wait_for(lambda: (self.out / "cracks-0.csv").exists() and (self.out / "cracks-0.csv").read_text().count("\n") > 20, process)
+        process = self.launch_and_hold("crack:20", 2, "triaxial", self.one, *GATHER, "--out", self.out, "--threads", 1, "--quiet")
         process.send_signal(signal.SIGUSR1)
         self.finish(process, 130)
+        self.assertTrue((self.out / "checkpoint.h5").exists())
 
     def test_interrupted_and_taken_up_by_one(self):
         self.interrupt()
@@ -142,57 +150,47 @@ class SeveralRanks(ProgramTest):
 
     def test_interrupted_taken_up_by_other_ranks_and_killed(self):
         self.interrupt()
-        often = ("--set", 'run.checkpoint_every="20 ms"')
-        process = launch(4, "triaxial", self.one, *GATHER, *often, "--out", self.out, "--resume", "--threads", 1)
-        self.wait_for((self.out / "checkpoint-before.h5").exists, process)
-        process.kill()
-        process.communicate()
-        self.wait_until(lambda: not self.ranks_left())
+        often = ("--set", 'run.checkpoint_every="1 us"')
+        process = self.launch_and_hold("checkpoint-between:3", 4, "triaxial", self.one, *GATHER, *often, "--out", self.out,
+                                       "--resume", "--threads", 1)
+        for one in [*self.ranks_of(process), process.pid]:
+            os.kill(one, signal.SIGKILL)
+        finish(process)
+        wait_until(lambda: not self.ranks_left(), "the end of the ranks")
+        self.assertEqual(sorted(path.name for path in self.out.glob("checkpoint*")), ["checkpoint-before.h5", "checkpoint.h5.part"])
         result = run("triaxial", self.one, *GATHER, "--out", self.out, "--resume", "--threads", "1")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.check_same(self.out)
 
     def test_a_dead_rank_ends_the_job(self):
-        process = launch(2, "triaxial", self.one, "--set", "test.platen_speed=0.001", "--out", self.out, "--quiet")
-        self.wait_for((self.out / "results.h5").exists, process)
-        time.sleep(1)
-        ranks = subprocess.run(["pgrep", "-P", str(process.pid), "breccia"], capture_output=True, text=True).stdout.split()
+        process = self.launch_and_hold("row:5", 2, "triaxial", self.one, *GATHER, "--out", self.out, "--quiet")
+        ranks = self.ranks_of(process)
         self.assertEqual(len(ranks), 2)
-        began = time.monotonic()
-        os.kill(int(ranks[1]), signal.SIGKILL)
-        _, errors = process.communicate(timeout=60)
-        self.assertLess(time.monotonic() - began, 20)
+        (other,) = {*ranks} - {self.held_process}
+        os.kill(other, signal.SIGKILL)
+        _, errors = finish(process)
         self.assertNotEqual(process.returncode, 0)
         self.assertIn("signal 9", errors)
 
     def test_trouble_ends_all_ranks_with_one_word_of_ours(self):
-        process = launch(2, "triaxial", self.one, "--set", "test.stop_strain=-1", "--out", self.out)
-        _, errors = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 2, errors)
+        _, errors = self.finish(self.launch(2, "triaxial", self.one, "--set", "test.stop_strain=-1", "--out", self.out), 2)
         self.assertEqual([line for line in errors.splitlines() if line.startswith("breccia-")].__len__(), 1, errors)
         self.assertIn("test.stop_strain", errors)
         self.assertFalse(self.out.exists())
 
     def test_studies_run_on_one(self):
-        process = launch(2, "layouts", "--out", self.out)
-        _, errors = process.communicate(timeout=60)
+        process = self.launch(2, "layouts", "--out", self.out)
+        _, errors = finish(process)
         self.assertNotEqual(process.returncode, 0)
         self.assertIn("2 ranks asked for; this program runs on one", errors)
+
+    def ranks_of(self, process):
+        found = subprocess.run(["pgrep", "-P", str(process.pid), "breccia"], capture_output=True, text=True, check=True)
+        return [int(one) for one in found.stdout.split()]
 
     def ranks_left(self):
         return subprocess.run(["pgrep", "-f", f"^[^ ]*breccia-triaxial .*{self.out}"], capture_output=True, text=True).stdout.split()
 
-    def wait_until(self, so):
-        for _ in range(4000):
-            if so():
-                return
-            time.sleep(0.005)
-        self.fail("waited for nothing")
-
-    def wait_for(self, so, process):
-        self.wait_until(lambda: process.poll() is not None or so())
-        self.assertIsNone(process.poll(), "the run was over before it could be stopped")
-
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -1,15 +1,12 @@
 #!/usr/bin/python3
-"""Wrong input, full and read-only disks, interrupts and options, through the programs as a user calls them."""
+"""Wrong input, interrupts and options, through the programs as a user calls them."""
 import json
 import os
 import signal
-import subprocess
-import time
-import unittest
 
 import h5py
 
-from programs import BIN, ENDLESS, UCS, ProgramTest, run, tree
+from programs import UCS, ProgramTest, command, finish, main, run, tree
 
 ROWS = "id,x_m,y_m,z_m,r_m\n1,0,0,-0.04,0.01\n2,0,0,-0.02,0.01\n3,0,0,0,0.01\n4,0,0,0.02,0.01\n5,0,0,0.04,0.01\n"
 
@@ -187,15 +184,14 @@ class Folders(ProgramTest):
 
         (self.out / "notes.txt").write_text("mine")
         (self.out / "frames" / "mine.pvd").write_text("mine")
-        (self.out / "frames" / "run-9").mkdir()
-        (self.out / "frames" / "run-9" / "bonds-000.vtp").write_text("left by a longer series")
+        (self.out / "frames" / "run-0" / "bonds-009.vtp").write_text("left by a longer series")
         self.assertEqual(run("ucs", self.case, "--out", self.out, "--force", "--set", "output.frames=1").returncode, 0)
         second = tree(self.out)
         self.assertEqual(second["notes.txt"], b"mine")
         self.assertEqual(second["frames/mine.pvd"], b"mine")
         gone = sorted(set(first) - set(second))
         self.assertEqual(gone, ["frames/run-0/bonds-002.vtp", "frames/run-0/particles-002.vtp"])
-        self.assertNotIn("frames/run-9/bonds-000.vtp", second)
+        self.assertNotIn("frames/run-0/bonds-009.vtp", second)
 
     def test_below_a_file(self):
         place = self.write("file", "") / "out"
@@ -203,43 +199,16 @@ class Folders(ProgramTest):
             self.check_one_line(run(program, case, "--out", place), 4, place, "--out")
         self.check_one_line(run("ucs", self.case, "--out", self.work / "file"), 4, "is not a folder", "--out")
 
-    def test_read_only(self):
-        place = self.mount("disk", "size=1m,ro")
-        self.check_one_line(run("ucs", self.case, "--out", place / "out"), 4, place, "Read-only", "--out")
-        self.check_one_line(run("ucs", self.case, "--out", place), 4, place, "Read-only", "--out")
-
-    def test_full_disk(self):
-        """Whatever the size of the disk: exit code 4, and what is there can be read."""
-        for size in (4, 64, 256, 500):
-            with self.subTest(size=f"{size} kB"):
-                place = self.mount(f"disk-{size}", f"size={size}k")
-                self.check_one_line(run("ucs", self.case, "--out", place / "out"), 4, place, "No space")
-                self.assertEqual(sorted(place.rglob("*.part")), [])
-                self.check_readable(place / "out")
-
 
 class Interrupts(ProgramTest):
-    def start(self, *arguments):
-        process = subprocess.Popen([BIN / "breccia-ucs", self.case, "--out", self.out, *arguments],
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(process.kill)
-        return process
-
-    def wait_for(self, path):
-        for _ in range(600):
-            if path.exists():
-                return
-            time.sleep(0.1)
-        self.fail(f"{path} did not come")
-
     def test_during_a_run(self):
+        """At its second frame: curve, summary and frames up to there."""
         for kind in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
             with self.subTest(signal=kind.name):
                 self.out = self.work / kind.name
-                process = self.start(*ENDLESS)
-                self.wait_for(self.out / "frames" / "run-0" / "bonds-001.vtp")
+                process = self.start_and_hold("frame:2", *command("ucs", self.case, "--out", self.out))
                 process.send_signal(kind)
-                out, err = process.communicate(timeout=60)
+                out, err = finish(process)
                 self.assertEqual((process.returncode, err), (130, ""))
                 self.assertIn("interrupted", out)
                 summary = json.loads((self.out / "summary.json").read_text())
@@ -247,18 +216,24 @@ class Interrupts(ProgramTest):
                 self.assertGreater(len((self.out / "curve-0.csv").read_text().splitlines()), 10)
                 self.check_readable(self.out)
                 with h5py.File(self.out / "results.h5") as file:
-                    self.assertIn("frame-001", file["run-0"])
+                    self.assertEqual([name for name in file["run-0"] if name.startswith("frame-")], ["frame-000", "frame-001"])
 
     def test_before_the_run(self):
-        """While spheres are packed nothing is lost: the program ends at once."""
-        self.case = self.write("big.toml", UCS.replace('file = "specimen.csv"', "pack.spheres = 500000"))
-        process = self.start()
-        process.stdout.readline()  # "packing ..."
+        """While spheres are packed nothing is lost: the program ends there and then."""
+        self.case = self.write("pack.toml", UCS.replace('file = "specimen.csv"', "pack.spheres = 300"))
+        process = self.start_and_hold("packing:1", *command("ucs", self.case, "--out", self.out))
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=10)
-        self.assertEqual(process.returncode, 130)
+        out, err = finish(process)
+        self.assertEqual((process.returncode, out, err), (130, "packing 300 spheres\n", ""))
+        self.assertFalse(self.out.exists())
+
+    def test_a_hold_that_cannot_be(self):
+        """A test that names no point of a program must not wait for it."""
+        for text in ("row", "row:1", "row:=x", "row:0=x", "row:1x=x", "rows:1=x", "row:1="):
+            result = run("ucs", self.case, "--out", self.out, env=os.environ | {"BRECCIA_HOLD": text})
+            self.check_one_line(result, 2, "BRECCIA_HOLD", f'"{text}"')
         self.assertFalse(self.out.exists())
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

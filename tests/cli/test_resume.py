@@ -1,17 +1,21 @@
 #!/usr/bin/python3
-"""Checkpoints: a run that was interrupted, killed or cut off by a full disk goes on to the same curve, bit for bit."""
+"""Checkpoints: a run that was interrupted or killed, at whatever point of its way, goes on to the same curve, bit for
+bit."""
 import json
-import os
-import random
+import shutil
 import signal
-import subprocess
-import time
-import unittest
 
-from programs import BIN, CONFINED, ProgramTest, run, tree
+from programs import CONFINED, ProgramTest, command, finish, main, run, tree
 
 GATHER = ("--set", 'run.scatter="gather"', "--set", "output.frames=4")
-OFTEN = ("--set", 'run.checkpoint_every="20 ms"')
+ALWAYS, NEVER = "1 us", "1e9 s"  # between checkpoints: one at every row, none but when asked
+
+BEGINS = "no checkpoint, begins at the start"
+NEWEST, BEFORE = r"goes on from step \d+ of run \d \(.*/checkpoint.h5\)", r"goes on from step \d+ of run \d \(.*/checkpoint-before.h5\)"
+
+
+def of_second(said):
+    return said.replace(r"run \d", "run 2")
 
 
 class Resume(ProgramTest):
@@ -23,32 +27,37 @@ class Resume(ProgramTest):
         cls.whole = cls.shelf / "whole"
         result = run("triaxial", case, *GATHER, "--out", cls.whole, "--threads", "2", "--quiet")
         assert result.returncode == 0, result.stderr
+        cls.rows, cls.cracks = ([len((cls.whole / f"{name}-{k}.csv").read_text().splitlines()) - 1 for k in (0, 1)]
+                                for name in ("curve", "cracks"))
 
     def setUp(self):
         super().setUp()
         self.case = self.write("ucs.toml", CONFINED)
 
-    def start(self, *options):
-        return subprocess.Popen([BIN / "breccia-triaxial", self.case, *GATHER, *OFTEN, "--out", self.out, "--quiet", *options],
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    def hold(self, point, *options, every=NEVER):
+        """Starts the test, or takes it up, and returns when it waits."""
+        every = ("--set", f'run.checkpoint_every="{every}"')
+        return self.start_and_hold(point, *command("triaxial", self.case, *GATHER, *every, "--out", self.out, *options))
 
     def resume(self, *options):
         return run("triaxial", self.case, *GATHER, "--out", self.out, "--resume", *options)
 
-    def wait_for(self, what, process):
-        for _ in range(2000):
-            if what.exists() or process.poll() is not None:
-                break
-            time.sleep(0.005)
-        self.assertIsNone(process.poll(), "the run was over before it could be stopped")
-
-    def interrupt(self, number=signal.SIGTERM, after=0.3):
-        process = self.start("--threads", "1")
-        self.wait_for(self.out / "checkpoint-before.h5", process)
-        time.sleep(after)
+    def interrupt(self, point, number=signal.SIGTERM, *options, every=NEVER):
+        process = self.hold(point, "--threads", "1", *options, every=every)
         process.send_signal(number)
-        process.communicate(timeout=60)
-        return process.returncode
+        out, errors = finish(process)
+        self.assertEqual((process.returncode, errors), (130, ""), out)
+        self.assertIn("--resume goes on from here", out)
+        return out
+
+    def interrupt_twice(self):
+        """Two checkpoints, both from the midst of the second run, where bonds break."""
+        self.interrupt(f"crack:{self.cracks[0] + self.cracks[1] // 2}")
+        self.interrupt("row:10", signal.SIGTERM, "--resume")
+        self.assertEqual(self.checkpoints(), ["checkpoint-before.h5", "checkpoint.h5"])
+
+    def checkpoints(self):
+        return sorted(path.name for path in self.out.glob("checkpoint*"))
 
     def check_same(self):
         """The same curves, cracks and states as the run that was never stopped; nothing is left behind."""
@@ -58,35 +67,62 @@ class Resume(ProgramTest):
         for key in ("state_hash", "peak_stress_Pa", "steps", "energy_error", "step_estimates", "critical_time_step_s"):
             self.assertEqual([one[key] for one in ours], [one[key] for one in theirs], key)
         self.assertEqual(sorted(set(tree(self.out)) ^ set(tree(self.whole))), [])
+        self.check_readable(self.out)
+
+    def check_goes_on(self, *options, said=NEWEST):
+        result = self.resume(*options)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertRegex(result.stdout, said)
+        self.check_same()
 
     def test_every_signal_leaves_a_checkpoint_to_go_on_from(self):
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
-            with self.subTest(signal=number):
-                self.assertEqual(self.interrupt(number), 130)
-                result = self.resume("--threads", "2")  # another number of threads
-                self.assertEqual(result.returncode, 0, result.stderr)
-                self.assertRegex(result.stdout, "goes on from step [0-9]+ of run")
-                self.check_same()
-                for path in sorted(self.out.rglob("*"), reverse=True):
-                    path.rmdir() if path.is_dir() else path.unlink()
+        pressing, breaking = self.rows[0] + 20, self.cracks[0] + self.cracks[1] // 2
+        for number, point, every, of in ((signal.SIGINT, f"row:{self.rows[0] // 2}", NEVER, 1),
+                                         (signal.SIGTERM, f"row:{pressing}", NEVER, 2),
+                                         (signal.SIGUSR1, f"crack:{breaking}", NEVER, 2),
+                                         (signal.SIGTERM, "step:9", NEVER, 1),  # between two rows
+                                         (signal.SIGTERM, "results-filled:3", NEVER, 1),  # in the midst of a frame
+                                         (signal.SIGTERM, "checkpoint-begun:3", ALWAYS, 1)):  # and of a checkpoint
+            with self.subTest(signal=number, point=point):
+                self.interrupt(point, number, every=every)
+                self.check_goes_on("--threads", "2", said=f"of run {of} ")  # another number of threads
+                shutil.rmtree(self.out)
 
-    def test_killed_again_and_again(self):
-        chance = random.Random(7)
-        kills = 0
-        process = self.start("--threads", "2")
-        for _ in range(12):
-            try:
-                process.wait(timeout=chance.uniform(0.05, 0.7))
-                break
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.communicate()
-                kills += 1
-                process = self.start("--threads", "2", "--resume")
-        _, errors = process.communicate(timeout=120)
-        self.assertEqual(process.returncode, 0, errors)
-        self.assertGreater(kills, 2)
-        self.check_same()
+    def test_killed_wherever(self):
+        """One run, killed at every point at which something is half done, and taken up each time."""
+        part, newest, before = "checkpoint.h5.part", "checkpoint.h5", "checkpoint-before.h5"
+        second = f"crack:{self.cracks[0] // 2 + self.cracks[1] // 2}"
+        # where, checkpoints, signal; what the part before had left to go on from, what this one leaves
+        way = (("checkpoint-begun:1", ALWAYS, signal.SIGKILL, "300 spheres", [part]),
+               ("checkpoint-between:1", ALWAYS, signal.SIGKILL, BEGINS, [part]),
+               ("checkpoint:1", ALWAYS, signal.SIGKILL, BEGINS, [newest]),
+               ("step:3", NEVER, signal.SIGKILL, NEWEST, [newest]),
+               ("results-claimed:1", NEVER, signal.SIGKILL, NEWEST, [newest]),
+               ("results-filled:1", NEVER, signal.SIGKILL, NEWEST, [newest]),
+               ("results-flushed:1", NEVER, signal.SIGKILL, NEWEST, [newest]),
+               ("results-linked:1", NEVER, signal.SIGKILL, NEWEST, [newest]),
+               ("frame:1", NEVER, signal.SIGKILL, NEWEST, [newest]),
+               ("crack:9", NEVER, signal.SIGKILL, NEWEST, [newest]),
+               (f"crack:{self.cracks[0] // 2}", NEVER, signal.SIGTERM, NEWEST, [before, newest]),
+               ("checkpoint-filled:1", ALWAYS, signal.SIGKILL, NEWEST, [before, newest, part]),
+               ("checkpoint-sealed:1", ALWAYS, signal.SIGKILL, NEWEST, [before, newest, part]),
+               ("checkpoint-between:1", ALWAYS, signal.SIGKILL, NEWEST, [before, part]),
+               ("step:2", NEVER, signal.SIGKILL, BEFORE, [before, part]),
+               ("checkpoint:1", ALWAYS, signal.SIGKILL, BEFORE, [before, newest]),
+               ("run:1", NEVER, signal.SIGKILL, NEWEST, [before, newest]),  # the first run is written
+               (second, NEVER, signal.SIGTERM, NEWEST, [before, newest]),
+               ("results-flushed:1", NEVER, signal.SIGKILL, of_second(NEWEST), [before, newest]),
+               ("checkpoint-between:3", ALWAYS, signal.SIGKILL, of_second(NEWEST), [before, part]),
+               ("run:1", NEVER, signal.SIGKILL, of_second(BEFORE), [before, part]))  # all is written
+        for number, (point, every, kind, said, left) in enumerate(way):
+            process = self.hold(point, "--threads", str(1 + number % 2), *(["--resume"] if number else []), every=every)
+            process.send_signal(kind)
+            out, errors = finish(process)
+            where = f"stop {number} of the way, at {point}: {out}"
+            self.assertEqual((process.returncode, errors), (130 if kind == signal.SIGTERM else -kind, ""), where)
+            self.assertRegex(out, said, where)
+            self.assertEqual(self.checkpoints(), sorted(left), where)
+        self.check_goes_on("--threads", "2", said=of_second(BEFORE))
 
     def damage(self, name, change):
         path = self.out / name
@@ -98,28 +134,23 @@ class Resume(ProgramTest):
         def flip(content):
             content[len(content) // 2] ^= 4
 
+        self.interrupt_twice()
+        kept = self.work / "kept"
+        shutil.copytree(self.out, kept)
         for change in (flip, lambda content: content.__delitem__(slice(len(content) - 5000, None)), lambda content: content.clear()):
-            self.assertEqual(self.interrupt(), 130)
             self.damage("checkpoint.h5", change)
-            result = self.resume()
-            self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertRegex(result.stdout, "checkpoint.h5: damaged, not used")
-            self.assertIn("checkpoint-before.h5", result.stdout)
-            self.check_same()
-            for path in sorted(self.out.rglob("*"), reverse=True):
-                path.rmdir() if path.is_dir() else path.unlink()
+            self.check_goes_on(said=f"checkpoint.h5: damaged, not used.*\n(.*\n)*{BEFORE}")
+            shutil.rmtree(self.out)
+            shutil.copytree(kept, self.out)
 
     def test_without_a_good_checkpoint_it_begins_at_the_start(self):
-        self.assertEqual(self.interrupt(), 130)
+        self.interrupt_twice()
         for name in ("checkpoint.h5", "checkpoint-before.h5"):
             self.damage(name, lambda content: content.clear())
-        result = self.resume()
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("no checkpoint, begins at the start", result.stdout)
-        self.check_same()
+        self.check_goes_on(said=BEGINS)
 
     def test_a_changed_case_is_refused(self):
-        self.assertEqual(self.interrupt(), 130)
+        self.interrupt("row:10")
         before = tree(self.out)
         self.check_one_line(self.resume("--set", "time.safety=0.7"), 2, "checkpoint.h5", "time.safety = 0.7, was 0.8", "--force")
         self.case.write_text(CONFINED.replace("stop_strain = 0.005", "stop_strain = 0.006"))
@@ -127,10 +158,10 @@ class Resume(ProgramTest):
         self.assertEqual(tree(self.out), before)
 
     def test_another_specimen_is_refused(self):
-        self.assertEqual(self.interrupt(), 130)
+        self.interrupt("row:10")
         specimen = self.work / "specimen.csv"
         specimen.write_text("\n".join(specimen.read_text().splitlines()[:-1]) + "\n")
-        self.check_one_line(self.resume(), 2, "checkpoint.h5", "another specimen", "without --resume")
+        self.check_one_line(self.resume(), 2, "checkpoint.h5", "specimen.csv: has changed since", "--force")
 
     def test_a_finished_run_is_left_alone(self):
         self.case, self.out = self.shelf / "ucs.toml", self.whole
@@ -141,28 +172,6 @@ class Resume(ProgramTest):
         self.assertEqual(tree(self.out), before)
         self.check_one_line(self.resume("--set", "time.safety=0.7"), 2, "case.toml", "time.safety = 0.7, was 0.8")
 
-    def test_a_full_disk_keeps_the_last_checkpoint(self):
-        disk = self.mount("disk", "size=6m")
-        self.out = disk / "out"
-        process = self.start("--threads", "1", "--set", "output.frames=0")
-        self.wait_for(self.out / "checkpoint-before.h5", process)
-        filler = disk / "filler"
-        with filler.open("wb", buffering=0) as file:
-            try:
-                while file.write(bytes(4096)):
-                    pass
-            except OSError:
-                pass
-        _, errors = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 4, errors)
-        self.assertEqual(errors.count("\n"), 1, errors)
-        filler.unlink()
-        result = self.resume("--set", "output.frames=0")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("goes on from step", result.stdout)
-        ours, theirs = (json.loads((folder / "summary.json").read_text())["runs"] for folder in (self.out, self.whole))
-        self.assertEqual([one["state_hash"] for one in ours], [one["state_hash"] for one in theirs])
-
     def test_refusals(self):
         self.check_one_line(self.resume("--force"), 2, "--resume, --force")
         pack = self.write("pack.toml", '[specimen]\ndiameter = "50 mm"\nheight = "100 mm"\npack = { spheres = 50 }\n')
@@ -170,4 +179,4 @@ class Resume(ProgramTest):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

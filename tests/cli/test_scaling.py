@@ -5,11 +5,8 @@ import csv
 import json
 import signal
 import statistics
-import subprocess
-import time
-import unittest
 
-from programs import BIN, SOURCE, ProgramTest, run, tree
+from programs import ProgramTest, command, finish, main, plot, run, tree
 
 TINY = ("--spheres", "300,500", "--spheres-per-thread", "300", "--threads", "2,1", "--steps", "20", "--repeat", "3", "--warm-up", "20")
 PHASES = "search confinement halo bonds gather contacts platens ledger integrate measure output checkpoint".split()
@@ -123,7 +120,7 @@ class Scaling(ProgramTest):
 
     def test_plot(self):
         pictures = self.work / "pictures"
-        result = subprocess.run([SOURCE / "scripts" / "plot", self.folder, "--out", pictures], capture_output=True, text=True)
+        result = plot(self.folder, "--out", pictures)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertIn("12 points", result.stdout)
         self.assertEqual([path.name for path in pictures.iterdir()], ["scaling.png"])
@@ -132,7 +129,7 @@ class Scaling(ProgramTest):
     def test_plot_of_a_damaged_study(self):
         for text in ("{", "[]", '{"runs": []}', '{"study": "scaling", "runs": [{"study": "weak"}]}'):
             (self.work / "scaling.json").write_text(text)
-            result = subprocess.run([SOURCE / "scripts" / "plot", self.work], capture_output=True, text=True)
+            result = plot(self.work)
             self.check_one_line(result, 2, "scaling.json")
 
 
@@ -222,18 +219,12 @@ class Folders(ProgramTest):
         self.check_one_line(run("scaling", *TINY, "--out", self.write("file", "") / "out"), 4, "out")
 
     def test_interrupt_keeps_what_was_measured(self):
-        process = subprocess.Popen([BIN / "breccia-scaling", "--spheres", "300,500,700,900", "--steps", "19900", "--repeat", "1",
-                                    "--threads", "1,2", "--out", self.out], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(process.kill)
-        for _ in range(600):
-            if (self.out / "scaling.json").exists():
-                break
-            time.sleep(0.1)
+        process = self.start_and_hold("measurement:2", *command("scaling", *TINY, "--only", "strong", "--out", self.out))
         process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=60)
+        _, err = finish(process)
         self.assertEqual((process.returncode, err), (130, ""))
-        self.assertGreaterEqual(len(json.loads((self.out / "scaling.json").read_text())["runs"]), 1)
+        self.assertEqual(len(json.loads((self.out / "scaling.json").read_text())["runs"]), 2)
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

@@ -3,10 +3,9 @@
 import csv
 import json
 import math
-import subprocess
-import unittest
+import signal
 
-from programs import SOURCE, ProgramTest, run, tree
+from programs import ProgramTest, command, finish, main, plot, run, tree
 
 COLUMNS = ("scene part fraction verdict spheres bonds steps time_step_s limit_s estimate_over_limit energy_error drift "
            "broken_bonds peak_stress_Pa peak_change amiss cause").split()
@@ -73,7 +72,7 @@ class Stability(ProgramTest):
 
     def test_plot(self):
         pictures = self.work / "pictures"
-        result = subprocess.run([SOURCE / "scripts" / "plot", self.folder, "--out", pictures], capture_output=True, text=True)
+        result = plot(self.folder, "--out", pictures)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertIn("2 scenes, 10 runs", result.stdout)
         self.assertLess((pictures / "stability.png").stat().st_size, 300_000)
@@ -81,7 +80,7 @@ class Stability(ProgramTest):
     def test_plot_of_a_damaged_study(self):
         for text in ("{", "[]", '{"runs": []}', '{"study": "stability", "runs": [{"scene": "plain"}]}'):
             (self.work / "stability.json").write_text(text)
-            result = subprocess.run([SOURCE / "scripts" / "plot", self.work], capture_output=True, text=True)
+            result = plot(self.work)
             self.check_one_line(result, 2, "stability.json")
 
 
@@ -131,6 +130,14 @@ class Options(ProgramTest):
         self.check_one_line(run("stability", *options), 2, self.out, "--force")
         self.assertEqual(run("stability", *options, "--force").returncode, 0)
 
+    def test_interrupt_keeps_what_was_run(self):
+        process = self.start_and_hold("measurement:1", *command("stability", "--only", "one-sphere,two-spheres", "--threads", 1,
+                                                                "--out", self.out))
+        process.send_signal(signal.SIGINT)
+        _, err = finish(process)
+        self.assertEqual((process.returncode, err), (130, ""))
+        self.assertEqual(len(json.loads((self.out / "stability.json").read_text())["runs"]), 1)
+
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

@@ -2,13 +2,11 @@
 """A small unconfined test from case to plots: every file that is promised, and what stands in it."""
 import csv
 import json
-import subprocess
-import unittest
 import xml.etree.ElementTree as xml
 
 import h5py
 
-from programs import SOURCE, UCS, ProgramTest, run, tree
+from programs import UCS, ProgramTest, main, plot, run, tree
 
 FILES = ["case.toml", "cracks-0.csv", "curve-0.csv", "frames/run-0.pvd", "results.h5", "summary.json"]
 CURVE = ("time_s,axial_strain,platen_strain,axial_stress_Pa,radial_strain,volumetric_strain,confining_stress_Pa,"
@@ -132,10 +130,10 @@ class Ucs(ProgramTest):
 
     def test_plots(self):
         pictures = self.work / "pictures"
-        result = subprocess.run([SOURCE / "scripts" / "plot", self.folder, "--out", pictures], capture_output=True, text=True)
+        result = plot(self.folder, "--out", pictures)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(sorted(path.name for path in pictures.iterdir()), ["cracks-0.png", "curves.png", "energy.png", "events-0.csv", "specimen.png"])
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

@@ -226,7 +226,8 @@ class Impossible(Case):
         self.refused("triaxial", test('confinement = ["5 MPa", "5000 kPa"]'), "case.toml:8: test.confinement: 5 MPa stands twice")
 
     def test_what_the_bonds_cannot_do(self):
-        self.refused("ucs", UCS + "[bonds]\ncoordination = 29\n", "case.toml:12: bonds.coordination: ", "cannot be reached")
+        self.refused("ucs", UCS.replace('file = "specimen.csv"', "pack.spheres = 20") + "[bonds]\ncoordination = 29\n",
+                     "case.toml:12: bonds.coordination: ", "cannot be reached")
         self.refused("shear", SHEAR.replace('file = "specimen.csv"', "pack.spheres = 40").replace("100 mm", "60 mm"),
                      "case.toml:4: specimen.height: ", "five mean radii")
 

@@ -3,6 +3,8 @@
 
 #include "core/loading/protocol.hpp"
 #include "core/loading/strength.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

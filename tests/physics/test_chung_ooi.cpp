@@ -72,7 +72,7 @@ TEST_CASE("chung-ooi 1: two glass spheres head on [Hertz 1e-3 - digitised curve 
   CHECK(p.velocity.x == doctest::Approx(-10).epsilon(1e-6));
   CHECK(r.kinetic_after == doctest::Approx(r.kinetic_before).epsilon(1e-6));
   if (digitised("chung_ooi_test1_force_time.csv").empty()) {
-    MESSAGE("skipped: chung_ooi_test1_force_time.csv is not here");
+    MESSAGE("skipped 'chung_ooi_test1_force_time.csv is not here'");
     return;
   }
   CHECK(worst_force("chung_ooi_test1_force_time.csv", r.rows) < 0.01 * p.largest_force);
@@ -86,7 +86,7 @@ TEST_CASE("chung-ooi 2: a sphere on a rigid plane [Hertz 1e-3 - digitised curve 
   CHECK(p.contact_time == doctest::Approx(7.31656641e-4).epsilon(1e-3));
   CHECK(p.velocity.z == doctest::Approx(0.2).epsilon(1e-6));
   if (digitised("chung_ooi_test2_force_time.csv").empty()) {
-    MESSAGE("skipped: chung_ooi_test2_force_time.csv is not here");
+    MESSAGE("skipped 'chung_ooi_test2_force_time.csv is not here'");
     return;
   }
   CHECK(worst_force("chung_ooi_test2_force_time.csv", r.rows) < 0.01 * p.largest_force);
@@ -112,7 +112,7 @@ TEST_CASE("chung-ooi 4: oblique at constant speed [gross sliding 5e-3 - digitise
   }
   const auto curve = digitised("chung_ooi_test4_angular_velocity.csv", "Al. oxide");
   if (curve.empty()) {
-    MESSAGE("skipped: chung_ooi_test4_angular_velocity.csv is not here");
+    MESSAGE("skipped 'chung_ooi_test4_angular_velocity.csv is not here'");
     return;
   }
   double reading = 0, classic = 0, ours = 0;
@@ -145,7 +145,7 @@ TEST_CASE("chung-ooi 6: spinning on a rigid plane [gross sliding 1e-2 - nylon's 
   for (const double x : {0.15, 0.3, 0.5}) CHECK(beta(rough_alloy, x) == doctest::Approx(x - 1).epsilon(1e-2));
   const auto curve = digitised("chung_ooi_test6_beta.csv", "Nylon");
   if (curve.empty()) {
-    MESSAGE("skipped: chung_ooi_test6_beta.csv is not here");
+    MESSAGE("skipped 'chung_ooi_test6_beta.csv is not here'");
     return;
   }
   double reading = 0, worst = 0;

@@ -3,6 +3,10 @@
 
 #include <random>
 
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/loop_views.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

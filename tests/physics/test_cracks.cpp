@@ -1,6 +1,9 @@
 // The record of cracks: every bond that breaks, once, when it breaks, with what it carried and let go.
 #include <doctest/doctest.h>
 
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

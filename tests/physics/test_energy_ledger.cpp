@@ -4,6 +4,10 @@
 #include <random>
 
 #include "core/loading/protocol.hpp"
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/energy_accounting.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -90,7 +94,7 @@ TEST_CASE("A bond that is pulled apart costs its fracture energy, and the platen
   for (const int steps : {100, 1000}) {
     World pulled = w;
     pull(pulled, 2.0 * u_l, steps);
-    const EnergyBalance e = balance(pulled);
+    const EnergyBalance e = energy_balance(pulled);
     CHECK(e.damage == doctest::Approx(energy).epsilon(1e-12));
     CHECK(e.stored == 0.0);
     CHECK(e.work == doctest::Approx(energy).epsilon(4.0 / steps / steps));
@@ -107,12 +111,12 @@ TEST_CASE("A bond that is crushed and let go keeps the plastic work") {
   const double u_1 = p.LCS[0] / p.E * rest, far = 1.5 * u_1;  // beyond the first limit, below the second
   const double sigma = p.LCS[0] + p.E / p.YRC[0] * 0.5 * u_1 / rest, u_p = far - sigma / p.E * rest;
   pull(w, -far, 1500);
-  EnergyBalance e = balance(w);
+  EnergyBalance e = energy_balance(w);
   const double plastic = 0.5 * (p.LCS[0] + sigma) * area * u_p;
   CHECK(e.plastic == doctest::Approx(plastic).epsilon(1e-5));
   CHECK(e.stored == doctest::Approx(0.5 * sigma * sigma / p.E * area * rest).epsilon(1e-9));
   pull(w, far - u_p, 1500);
-  e = balance(w);
+  e = energy_balance(w);
   CHECK(e.plastic == doctest::Approx(plastic).epsilon(1e-5));
   CHECK(e.work == doctest::Approx(plastic).epsilon(1e-5));
   CHECK(e.stored < 1e-12 * plastic);
@@ -128,7 +132,7 @@ TEST_CASE("The dashpot of a pair takes up what the trapezoid says") {
   pull(w, speed * steps * w.dt, steps);
   // constant rate: full steps of c v^2, the first and the last half force count half each
   const double power = w.bonds.damping[0] * speed * speed;
-  CHECK(balance(w).contact_viscous == doctest::Approx(power * w.dt * (steps - 0.5)).epsilon(1e-9));
+  CHECK(energy_balance(w).contact_viscous == doctest::Approx(power * w.dt * (steps - 0.5)).epsilon(1e-9));
 }
 
 TEST_CASE(
@@ -147,10 +151,10 @@ TEST_CASE(
       const double speed = 0.1 * std::sin(2.0 * std::numbers::pi * w.time / duration);
       scene::drive(w, speed, -speed);
       advance(w);
-      record_balance(w.ledger, balance(w));
+      record_balance(w.ledger, energy_balance(w));
     }
     for (const auto& [name, channel] : loss_channels)
-      CHECK(std::abs(balance(w).*channel) < 1e-12 * w.ledger.most_work);
+      CHECK(std::abs(energy_balance(w).*channel) < 1e-12 * w.ledger.most_work);
     return energy_error(w.ledger);
   };
   const double coarse = worst(0.8), middle = worst(0.4), fine = worst(0.1);
@@ -177,7 +181,7 @@ TEST_CASE("Bodies that break up and rub balance, in every channel, with the squa
       EnergyBalance e;
       while (run.time < 8e-3) {
         advance(run);
-        e = balance(run);
+        e = energy_balance(run);
         record_balance(run.ledger, e);
       }
       CHECK(count_broken(run).tension + count_broken(run).shear > 30);
@@ -216,7 +220,7 @@ TEST_CASE("A compression test balances to a thousandth, whatever the number of t
     const CurveRow& last = result.record.rows.back();
     CHECK(last.work_J > 0.0);
     CHECK(last.dissipated_J > 0.3 * last.work_J);
-    return balance(w);
+    return energy_balance(w);
   };
   for (const double confinement : {0.0, 5e6}) {
     const EnergyBalance one = run(1, confinement), two = run(2, confinement);

@@ -3,6 +3,8 @@
 // and 5.6.
 #include <doctest/doctest.h>
 
+#include "core/stepping/step.hpp"
+#include "core/world/make_world.hpp"
 #include "core/world/stress.hpp"
 #include "tests/scene.hpp"
 

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -14,7 +16,7 @@ TEST_CASE(
   const std::filesystem::path file =
       std::filesystem::path(BRECCIA_SOURCE_DIR "/../shared/reference") / "reference_graph_benchmark22.dat";
   if (!std::filesystem::exists(file)) {
-    MESSAGE("skipped: reference_graph_benchmark22.dat is not here");
+    MESSAGE("skipped 'reference_graph_benchmark22.dat is not here'");
     return;
   }
   reference::Parameters p;

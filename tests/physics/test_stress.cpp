@@ -2,6 +2,9 @@
 // a specimen in a rigid sleeve.
 #include <doctest/doctest.h>
 
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/make_world.hpp"
 #include "core/world/stress.hpp"
 #include "kernels/loops/bond_energy.hpp"
 #include "tests/scene.hpp"

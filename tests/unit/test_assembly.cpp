@@ -3,6 +3,9 @@
 #include <doctest/doctest.h>
 
 #include "core/bonding/bond_area.hpp"
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/make_world.hpp"
 #include "io/specimens/read_specimen.hpp"
 #include "tests/scene.hpp"
 

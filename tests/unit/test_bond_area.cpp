@@ -524,7 +524,7 @@ TEST_CASE("section area: polyhedron gives the section of sphere packings [thesis
   report("4000 spheres packed",
          assemble(scene::small_packing(4000), scene::small_cylinder(), {}, Features{}, 2));
   if (!concrete_mesh()) {
-    MESSAGE("skipped: 13k_30_15.csv is not here");
+    MESSAGE("skipped '13k_30_15.csv is not here'");
     return;
   }
   const Body body{Shape::cylinder, 0.150, 0, 0.300};

@@ -5,7 +5,10 @@
 #include <numeric>
 #include <random>
 
+#include "core/stepping/step.hpp"
 #include "core/tables/state_hash.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -1,6 +1,9 @@
 // What acts on a specimen from outside: pressure on the mantle, platens, their servo.
 #include <doctest/doctest.h>
 
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/make_world.hpp"
 #include "kernels/loops/integrate.hpp"
 #include "tests/scene.hpp"
 

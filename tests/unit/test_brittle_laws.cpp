@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include "core/bonding/law_of_material.hpp"
+#include "core/world/loop_views.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/follow.hpp"
 #include "tests/scene.hpp"
 

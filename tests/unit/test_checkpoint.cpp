@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/tables/state_hash.hpp"
+#include "core/world/make_world.hpp"
 #include "io/cases/changed_keys.hpp"
 #include "io/files/checksum.hpp"
 #include "io/results/checkpoint.hpp"

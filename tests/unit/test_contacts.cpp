@@ -5,6 +5,9 @@
 #include <map>
 #include <random>
 
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -185,8 +188,8 @@ TEST_CASE("contacts: a new list keeps the friction and free length of pairs in c
                                                             w.contacts.shear_force[k]};
   }
   w.particles.position[3] = {0.0305, 0, 0};  // a new neighbour, so that rows shift
-  renew_contacts(w.neighbour_list, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, w.options.features,
-                 false, 1);
+  rebuild_neighbour_list(w.neighbour_list, w.contacts, w.particles, {w.material.young_modulus, w.alpha},
+                         w.options.features, false, 1);
   CHECK(w.contacts.size > before.size());
   std::size_t kept = 0;
   for (std::size_t k = 0; k < w.contacts.size; ++k) {

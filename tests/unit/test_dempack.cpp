@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "core/world/energies.hpp"
 #include "kernels/loops/bond_energy.hpp"
 #include "tests/follow.hpp"
 #include "tests/scene.hpp"

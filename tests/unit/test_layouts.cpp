@@ -5,8 +5,12 @@
 #include <limits>
 #include <random>
 
+#include "core/stepping/step.hpp"
 #include "core/studies/layouts/layout_study.hpp"
 #include "core/studies/layouts/machine_rates.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/loop_views.hpp"
+#include "core/world/make_world.hpp"
 #include "kernels/laws/bond_force.hpp"
 #include "tests/scene.hpp"
 

@@ -1,6 +1,10 @@
 // Mixed precision: the same run with the bonds' parameters and history as floats.
 #include <doctest/doctest.h>
 
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/make_world.hpp"
+#include "core/world/sync.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

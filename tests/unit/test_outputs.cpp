@@ -17,6 +17,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "core/tables/row_order.hpp"
 #include "io/files/atomic_write.hpp"
 #include "io/results/curve_csv.hpp"
@@ -116,7 +117,7 @@ void check_with_python(const std::string& arguments) {
   const int status = std::system(("/usr/bin/python3 '" + script + "' " + arguments).c_str());
   REQUIRE(WIFEXITED(status));
   if (WEXITSTATUS(status) == no_such_reader) {
-    MESSAGE("skipped: python3-h5py or python3-vtk9 is not installed");
+    MESSAGE("skipped 'python3-h5py or python3-vtk9 is not installed'");
   } else {
     CHECK(WEXITSTATUS(status) == 0);
   }
@@ -157,7 +158,7 @@ struct SmallDisk {
     mounted = ::unshare(CLONE_NEWNS) == 0 &&
               ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
               ::mount("tmpfs", path.c_str(), "tmpfs", 0, size) == 0;
-    if (!mounted) MESSAGE("skipped: a small tmpfs may not be mounted here");
+    if (!mounted) MESSAGE("skipped 'a small tmpfs may not be mounted here'");
   }
   ~SmallDisk() {
     if (mounted) ::umount(path.c_str());
@@ -293,8 +294,10 @@ TEST_CASE("outputs: results.h5 as h5py reads it") {
   create_results(file,
                  "[material]\npreset = \"concrete\"\n" + std::string(70000, '#'));  // beyond the old 64 kB
   begin_run(file, 0, attributes, serial_partition(scene.particles.size), scene.particles, scene.bonds);
-  append_frame(file, 0, 0, {0.0, 0, 0.0}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
-  append_frame(file, 0, 1, {1e-3, 10, 1e-4}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
+  append_frame(file, 0, 0, {0.0, 0, 0.0}, serial_partition(scene.particles.size), scene.particles,
+               scene.bonds);
+  append_frame(file, 0, 1, {1e-3, 10, 1e-4}, serial_partition(scene.particles.size), scene.particles,
+               scene.bonds);
   append_frame(file, 0, 1, {2e-3, 20, 2e-4}, serial_partition(scene.particles.size), scene.particles,
                scene.bonds);  // as after a resume
   Features few;
@@ -390,34 +393,38 @@ TEST_CASE(
     "continued") {
   const TemporaryFolder folder;
   const Scene scene = noise(500, 1500);
-  std::string arguments = "frames-at-least";
-  for (int trial = 0; trial < 8; ++trial) {
-    const fs::path file = folder.path / (std::to_string(trial) + ".h5");
-    create_results(file, "");
-    begin_run(file, 0, attributes, serial_partition(scene.particles.size), scene.particles, scene.bonds);
-    int written[2];
-    REQUIRE(::pipe(written) == 0);
-    const pid_t child = ::fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-      for (int frame = 0;; ++frame) {
-        append_frame(file, 0, frame, {}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
-        if (::write(written[1], "x", 1) != 1) ::_exit(1);
+  const auto append = [&](const fs::path& file, int frame) {
+    append_frame(file, 0, frame, {}, serial_partition(scene.particles.size), scene.particles, scene.bonds);
+  };
+  std::vector<std::pair<fs::path, int>> killed;
+  std::string left, continued;
+  for (const char* point : {"results-claimed", "results-filled", "results-flushed", "results-linked"}) {
+    for (const int whole : {1, 3}) {
+      const fs::path file = folder.path / fmt::format("{}-{}.h5", point, whole);
+      const fs::path mark = folder.path / "held";
+      create_results(file, "");
+      begin_run(file, 0, attributes, serial_partition(scene.particles.size), scene.particles, scene.bonds);
+      const pid_t child = ::fork();
+      REQUIRE(child >= 0);
+      if (child == 0) {
+        set_hold(fmt::format("{}:{}={}", point, whole + 1, mark.string()).c_str(), [] { return false; });
+        for (int frame = 0; frame <= whole; ++frame) append(file, frame);
+        ::_exit(1);  // it never came there
       }
+      int status = 0;
+      while (!fs::exists(mark) && ::waitpid(child, &status, WNOHANG) == 0) ::usleep(1000);
+      REQUIRE(fs::exists(mark));
+      REQUIRE(::kill(child, SIGKILL) == 0);
+      REQUIRE(::waitpid(child, &status, 0) == child);
+      fs::remove(mark);
+      killed.emplace_back(file, whole);
+      left += fmt::format(" '{}' {}", file.string(), whole);
+      continued += fmt::format(" '{}' {}", file.string(), whole + 1);
     }
-    ::close(written[1]);
-    char buffer[4096];
-    ssize_t frames = ::read(written[0], buffer, 1);  // at least one frame, however slow the machine is
-    ::usleep(static_cast<useconds_t>(5000 + 1700 * trial));
-    ::kill(child, SIGKILL);
-    ::waitpid(child, nullptr, 0);
-    while (const ssize_t more = ::read(written[0], buffer, sizeof buffer)) frames += more;
-    ::close(written[0]);
-    append_frame(file, 0, static_cast<int>(frames), {}, serial_partition(scene.particles.size), scene.particles,
-                 scene.bonds);
-    arguments += " '" + file.string() + "' " + std::to_string(frames + 1);
   }
-  check_with_python(arguments);
+  check_with_python("frames-at-least" + left);
+  for (const auto& [file, whole] : killed) append(file, whole);
+  check_with_python("frames" + continued);
 }
 
 TEST_CASE("outputs: more frames and runs than usual") {

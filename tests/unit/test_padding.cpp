@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/make_world.hpp"
 #include "core/world/world.hpp"
 
 using namespace breccia;

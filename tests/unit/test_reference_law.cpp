@@ -680,7 +680,7 @@ TEST_CASE("reference/kratos: two spheres pulled apart [Kratos benchmark 22, rel 
   const std::filesystem::path file =
       std::filesystem::path(BRECCIA_SOURCE_DIR "/../shared/reference") / "reference_graph_benchmark22.dat";
   if (!std::filesystem::exists(file)) {
-    MESSAGE("skipped: reference_graph_benchmark22.dat is not here");
+    MESSAGE("skipped 'reference_graph_benchmark22.dat is not here'");
     return;
   }
   World world;

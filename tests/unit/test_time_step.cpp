@@ -8,6 +8,10 @@
 #include "core/base/largest_eigenvalue.hpp"
 #include "core/elastic/critical_step.hpp"
 #include "core/elastic/elastic_network.hpp"
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/loop_views.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -279,8 +283,8 @@ TEST_CASE("time step: what contacts add to the stability number stays below its 
   World w = make_world(a, scene::material_of(p), scene::factor(p), o);
   const double without = estimate_step(scene_of(w), w.dt).number;
   w.neighbour_list.skin *= 5;  // many at once
-  renew_contacts(w.neighbour_list, w.contacts, w.particles, {w.material.young_modulus, w.alpha}, o.features, false,
-                 1);
+  rebuild_neighbour_list(w.neighbour_list, w.contacts, w.particles, {w.material.young_modulus, w.alpha},
+                         o.features, false, 1);
   REQUIRE(w.contacts.size > 20);
   std::vector<std::size_t> all(w.contacts.size);
   std::iota(all.begin(), all.end(), std::size_t{0});

@@ -1,7 +1,9 @@
 // The energy of bonds without damage, in registers of every width, held against the sum bond by bond.
 #include <doctest/doctest.h>
 
+#include "core/world/energies.hpp"
 #include "core/world/energy_ledger.hpp"
+#include "core/world/loop_views.hpp"
 #include "kernels/loops/bond_energy.hpp"
 #include "tests/scene.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/threads.hpp"
+#include "core/world/loop_views.hpp"
 
 namespace breccia {
 namespace {

@@ -5,7 +5,9 @@
 
 #include "core/bonding/assembly.hpp"
 #include "core/packing/packing.hpp"
+#include "core/stepping/step.hpp"
 #include "core/studies/layouts/wall_time.hpp"
+#include "core/world/make_world.hpp"
 
 namespace breccia {
 namespace {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/elastic/elastic_network.hpp"
+#include "core/world/loop_views.hpp"
 
 namespace breccia {
 namespace {

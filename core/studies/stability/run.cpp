@@ -9,7 +9,13 @@
 #include "core/bonding/law_of_material.hpp"
 #include "core/elastic/area_factor.hpp"
 #include "core/loading/stability_checks.hpp"
+#include "core/stepping/step.hpp"
 #include "core/studies/stability/exact_limit.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/loop_views.hpp"
+#include "core/world/make_world.hpp"
+#include "core/world/stable_step.hpp"
+#include "core/world/sync.hpp"
 
 namespace breccia {
 namespace {
@@ -89,7 +95,7 @@ bool has_run_away(const World& w, double start) {
   return !(kinetic_energy(w) + stored_energy(w) < runaway * start);
 }
 
-/// Whether a run that was stopped would have run away: it goes on without guards.
+/// Whether a run that was stopped would have run away: it goes on without checks.
 bool would_run_away(World& w, double start, std::uint64_t steps) {
   for (const std::uint64_t end = w.step + steps; w.step < end;) {
     advance(w);
@@ -110,7 +116,7 @@ void run_freely(World& w, std::uint64_t steps, bool has_loss, StabilityRun& run)
       }
       book.add(w.step, advance_with_energy(w));
       if (start == 0.0) start = kinetic_energy(w) + stored_energy(w);
-      check(guards, w, kinetic_energy(w), stored_energy(w));
+      check(checks, w, kinetic_energy(w), stored_energy(w));
       if (has_run_away(w, start)) run.verdict = Verdict::unnoticed;
     }
     run.steps = w.step;
@@ -172,7 +178,7 @@ void run_rest(StabilityWorld& made, std::uint64_t steps, StabilityRun& run) {
       advance(w);
       last = axial_stress(w.platens);
       if (w.step == settled) start = last;
-      if (w.step % 10'000 == 0) check(guards, w, kinetic_energy(w), stored_energy(w));
+      if (w.step % 10'000 == 0) check(checks, w, kinetic_energy(w), stored_energy(w));
     }
     run.drift = last / start - 1.0;
   } catch (const SimulationBroke& why) {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "core/base/hold.hpp"
 #include "drivers/programs/command_line.hpp"
 #include "drivers/studies/layouts/options.hpp"
 #include "drivers/studies/layouts/results.hpp"
@@ -30,7 +31,8 @@ LayoutScene packed(std::size_t spheres, const Material& material, int threads, P
 bool run_study(const LayoutsOptions& options) {
   LayoutsResults results{describe_machine(), "concrete", options.timing, operations_per_bond(), {}};
   const Material material = shipped_material(results.material, "breccia-layouts");
-  claim_run_folder(options.out, options.force);
+  const FolderLock lock = claim_run_folder(options.out, options.force ? Old::replace : Old::refuse,
+                                           {{"layouts.csv", "layouts.json"}, {}});
   Progress progress = make_progress(options.quiet);
   say(progress, layouts_heading(results));
   if (options.threads.back() > results.machine.cores)
@@ -46,6 +48,7 @@ bool run_study(const LayoutsOptions& options) {
                        study_layouts(scene, threads, options.timing)});
       write_layouts_csv(options.out / "layouts.csv", results);
       write_layouts_json(options.out / "layouts.json", results);
+      hold_at(HoldPoint::measurement);
       say(progress, format_layouts_group(group, results.operations));
       for (const LayoutResult& r : group.results) {
         if (r.difference <= allowed_difference) continue;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/hold.hpp"
 #include "drivers/programs/command_line.hpp"
 #include "drivers/studies/scaling/results.hpp"
 #include "drivers/studies/study_options.hpp"
@@ -31,7 +32,10 @@ void run_study(const ScalingOptions& options) {
   const std::vector<ScalingPoint> points = scaling_points(options, ranks.count);
   ScalingResults results{describe_machine(), options.blocks, "concrete", {}};
   const Material material = shipped_material(results.material, "breccia-scaling");
-  if (ranks.is_root()) claim_run_folder(options.out, options.force);
+  FolderLock lock;
+  if (ranks.is_root())
+    lock = claim_run_folder(options.out, options.force ? Old::replace : Old::refuse,
+                            {{"scaling.csv", "scaling.json"}, {}});
   Progress progress = make_progress(options.quiet || !ranks.is_root());
   say(progress, heading(options, results));
   // a signal ends the program at once: the files hold what has been measured
@@ -53,6 +57,7 @@ void run_study(const ScalingOptions& options) {
     if (!ranks.is_root()) continue;
     write_scaling_csv(options.out / "scaling.csv", results);
     write_scaling_json(options.out / "scaling.json", results);
+    hold_at(HoldPoint::measurement);
     say(progress, describe(results.runs.back(), results.runs));
   }
   if (!ranks.is_root()) return;

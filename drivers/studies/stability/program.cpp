@@ -6,12 +6,14 @@
 #include <cstdio>
 #include <mutex>
 
+#include "core/base/hold.hpp"
 #include "core/base/threads.hpp"
 #include "drivers/programs/command_line.hpp"
 #include "drivers/studies/stability/options.hpp"
 #include "drivers/studies/stability/results.hpp"
 #include "drivers/studies/study_options.hpp"
 #include "io/files/run_folder.hpp"
+#include "io/files/standard_streams.hpp"
 #include "io/results/progress.hpp"
 
 namespace breccia {
@@ -34,7 +36,8 @@ bool run_study(const StabilityOptions& options) {
   const std::vector<PartOfScene> parts = parts_of(chosen_scenes(options));
   StabilityResults results{describe_machine(), "concrete", options.length, {}};
   const Material material = shipped_material(results.material, "breccia-stability");
-  claim_run_folder(options.out, options.force);
+  const FolderLock folder = claim_run_folder(options.out, options.force ? Old::replace : Old::refuse,
+                                             {{"stability.csv", "stability.json"}, {}});
   Progress progress = make_progress(options.quiet);
   say(progress, fmt::format("stiff and extreme scenes of {}, law dempack, at fractions of the largest stable "
                             "step; {} steps of a network at 0.99",
@@ -52,6 +55,7 @@ bool run_study(const StabilityOptions& options) {
         results.parts[k] = std::move(runs);
         write_stability_csv(options.out / "stability.csv", results);
         write_stability_json(options.out / "stability.json", results);
+        hold_at(HoldPoint::measurement);
       },
       tbb::simple_partitioner{});
   say(progress, fmt::format("\n{}", format_stability_table(results)));
@@ -67,8 +71,7 @@ int run_stability_program(int argc, char** argv) {
   StabilityOptions options;
   if (const auto code = read_stability_options(argc, argv, options)) return *code;
   if (options.list) {
-    fmt::print("{}", format_scenes());
-    return 0;
+    return run_body("breccia-stability", 1, [] { print_out(format_scenes()); });
   }
   bool fine = true;
   const int code = run_body("breccia-stability", options.threads, [&] { fine = run_study(options); });

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "core/base/error.hpp"
+#include "core/base/hold.hpp"
 #include "drivers/programs/command_line.hpp"
 #include "drivers/studies/workprecision/journal.hpp"
 #include "drivers/studies/workprecision/options.hpp"
@@ -124,6 +125,7 @@ private:
     if (!outcome) return;
     journal_.add(key_of(trial), *outcome);
     collect();
+    hold_at(HoldPoint::measurement);
     say(progress_, fmt::format("{} of {}, {}", results_.runs.size(), trials_.size(),
                                describe({trial, *outcome}, results_.analysis)));
   }
@@ -163,11 +165,16 @@ void run_study(const WorkPrecisionOptions& options) {
   const std::vector<Trial> trials =
       plan_trials({options.grid, results.base, options.families, options.threads, has_mixed_loop(c)});
   say(progress, heading(results, c, trials.size()));
+  FolderLock lock;
+  const bool same = is_resolved_already(options.out, c.source, c.resolved);
   if (!options.dry_run) {
-    if (options.resume)
-      make_folder(options.out);
-    else
-      claim_run_folder(options.out, options.force);
+    FolderUse use{{"runs.jsonl", "workprecision.csv", "workprecision.json"}, c.inputs};
+    if (!same) use.writes.emplace_back("case.toml");
+    lock = claim_run_folder(options.out,
+                            options.resume  ? Old::keep
+                            : options.force ? Old::replace
+                                            : Old::refuse,
+                            use);
   }
   const StudyScene scene = make_study_scene(c, test, trials, options.threads, progress);
   if (options.dry_run) {
@@ -183,7 +190,7 @@ void run_study(const WorkPrecisionOptions& options) {
                    {"cpu", results.machine.cpu},
                    {"instruction set", results.machine.instruction_set}},
                   options.resume);
-  atomic_write(options.out / "case.toml", c.resolved);
+  if (!same) atomic_write(options.out / "case.toml", c.resolved);
   Study(options, scene, trials, results, journal, progress).run();
   say(progress,
       format_reference(results) + format_recipes(results) + format_sizes(results) + format_cheapest(results));

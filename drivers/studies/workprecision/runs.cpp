@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/bonding/law_of_material.hpp"
 #include "core/loading/strength.hpp"
+#include "core/world/make_world.hpp"
 #include "drivers/programs/laboratory.hpp"
 #include "io/text/toml_node.hpp"
 #include "kernels/loops/bond_pass.hpp"
@@ -167,9 +168,10 @@ void run_side_by_side(std::size_t tasks, int lanes, const std::function<bool()>&
       }
     }
   };
-  std::vector<std::thread> threads;
-  for (int k = 0; k < lanes && static_cast<std::size_t>(k) < tasks; ++k) threads.emplace_back(lane);
-  for (std::thread& thread : threads) thread.join();
+  {
+    std::vector<std::jthread> threads;  // joined in any case, also where one more cannot be started
+    for (int k = 0; k < lanes && static_cast<std::size_t>(k) < tasks; ++k) threads.emplace_back(lane);
+  }
   if (trouble) std::rethrow_exception(trouble);
 }
 

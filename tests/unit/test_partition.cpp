@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/ranks/partition.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -18,12 +19,12 @@ World small_world() {
 
 }  // namespace
 
-TEST_CASE("share: ranks own whole blocks, all rows once, and the same work to within a block") {
+TEST_CASE("partition: ranks own whole blocks, all rows once, and the same work to within a block") {
   const World w = small_world();
   for (const int count : {1, 2, 3, 5, 40}) {
     std::size_t rows = 0;
     for (int rank = 0; rank < count; ++rank) {
-      const Partition s = partition_of_rank(w, {rank, count});
+      const Partition s = partition_of_rank(w.particles.size, w.bonds, {rank, count});
       REQUIRE(s.bounds.size() == static_cast<std::size_t>(count) + 1);
       CHECK(s.bounds.front() == 0);
       CHECK(s.bounds.back() == w.particles.size);
@@ -34,7 +35,7 @@ TEST_CASE("share: ranks own whole blocks, all rows once, and the same work to wi
     }
     CHECK(rows == w.particles.size);
   }
-  const Partition s = partition_of_rank(w, {0, 2});
+  const Partition s = partition_of_rank(w.particles.size, w.bonds, {0, 2});
   std::size_t work[2] = {0, 0};
   for (std::size_t k = 0; k < w.bonds.size; ++k)
     ++work[s.owner(std::min(w.bonds.row_lo[k], w.bonds.row_hi[k]))];
@@ -42,7 +43,7 @@ TEST_CASE("share: ranks own whole blocks, all rows once, and the same work to wi
         12.0 * static_cast<double>(s.block));
 }
 
-TEST_CASE("share: owned rows of a part are those of both") {
+TEST_CASE("partition: owned rows of a part are those of both") {
   Partition s = serial_partition(1000);
   s.bounds = {0, 128, 640, 1000};
   s.ranks = {1, 3};

@@ -1,8 +1,15 @@
-// The step, as a page of verbs.
+#include "core/stepping/step.hpp"
+
 #include <algorithm>
 
 #include "core/base/threads.hpp"
-#include "core/world/world.hpp"
+#include "core/distributed/distribute.hpp"
+#include "core/distributed/gather.hpp"
+#include "core/distributed/halo.hpp"
+#include "core/world/energy_accounting.hpp"
+#include "core/world/loop_views.hpp"
+#include "core/world/scatter_plans.hpp"
+#include "core/world/stable_step.hpp"
 #include "kernels/loops/contact_pass.hpp"
 
 namespace breccia {
@@ -21,9 +28,9 @@ void search_if_due(World& w) {
   World& whole = gather_to_root(w);
   if (w.partition.ranks.is_root()) {
     const ContactMaterial material{w.material.young_modulus, w.alpha, w.space};
-    renew_contacts(whole.neighbour_list, whole.contacts, whole.particles, material, whole.features,
-                   whole.ledger.enabled, whole.options.threads);
-    renew_contacts(whole.ledger, whole.contacts);
+    rebuild_neighbour_list(whole.neighbour_list, whole.contacts, whole.particles, material, whole.features,
+                           whole.ledger.enabled, whole.options.threads);
+    start_contact_sums(whole.ledger, whole.contacts);
     revise_step(whole);
   }
   if (!w.partition.ranks.alone()) return broadcast_contacts(w);

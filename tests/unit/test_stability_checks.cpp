@@ -3,8 +3,11 @@
 #include <doctest/doctest.h>
 
 #include "core/base/error.hpp"
-#include "core/loading/stability_checks.hpp"
 #include "core/loading/protocol.hpp"
+#include "core/loading/stability_checks.hpp"
+#include "core/stepping/step.hpp"
+#include "core/world/energies.hpp"
+#include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -25,12 +28,12 @@ Packed packed(const ref::Parameters& p, std::size_t spheres = 200) {
   return made;
 }
 
-void look(StabilityChecks& guards, const World& w) { check(guards, w, kinetic_energy(w), stored_energy(w)); }
+void look(StabilityChecks& checks, const World& w) { check(checks, w, kinetic_energy(w), stored_energy(w)); }
 
 /// What a guard says, empty where none fires.
 std::string said(StabilityChecks checks, const World& w) {
   try {
-    look(guards, w);
+    look(checks, w);
   } catch (const SimulationBroke& why) {
     return why.what();
   }
@@ -60,23 +63,23 @@ std::string end_of(Packed& made, const LoadTest& test) {
 
 }  // namespace
 
-TEST_CASE("guards: a number that is lost is named with its particle and bond") {
+TEST_CASE("stability checks: a number that is lost is named with its particle and bond") {
   Packed made = packed({});
   World& w = made.world;
   const StabilityChecks checks = make_stability_checks(w);
-  CHECK(said(guards, w) == "");
+  CHECK(said(checks, w) == "");
   w.particles.velocity[17].y = std::nan("");
-  const std::string velocity = said(guards, w);
+  const std::string velocity = said(checks, w);
   CHECK(has(velocity, fmt::format("particle {} has a velocity that is not a number", w.particles.gid[17])));
   CHECK(has(velocity, "its bond "));
   CHECK(has(velocity, "time.safety = 0.4"));
   w.particles.velocity[17].y = 0;
   w.bonds.shear_y[5] = w.bonds.shear_x[5] = std::nan("");
-  CHECK(has(said(guards, w), fmt::format("bond {}-{} has a force that is not a number", w.bonds.gid_lo[5],
+  CHECK(has(said(checks, w), fmt::format("bond {}-{} has a force that is not a number", w.bonds.gid_lo[5],
                                          w.bonds.gid_hi[5])));
 }
 
-TEST_CASE("guards: a test with a step beyond the limit is stopped before it has a curve") {
+TEST_CASE("stability checks: a test with a step beyond the limit is stopped before it has a curve") {
   for (const double beyond : {1.3, 2.0}) {
     Packed made = packed({});
     made.world.dt = beyond * made.world.critical_dt;
@@ -90,7 +93,8 @@ TEST_CASE("guards: a test with a step beyond the limit is stopped before it has 
 }
 
 TEST_CASE(
-    "guards: no failure of a specimen fires, however violent, nor do pressure, unloading, fast platens") {
+    "stability checks: no failure of a specimen fires, however violent, nor do pressure, unloading, fast "
+    "platens") {
   ref::Parameters brittle;
   brittle.delta_n = brittle.delta_s = 0;
   brittle.xi = 0;
@@ -116,7 +120,9 @@ TEST_CASE(
   CHECK(end_of(crushed, compression(10.0, 0.05)) == "");
 }
 
-TEST_CASE("guards: the energy of a pair at a step s of its limit wavers by (1 + s)/(1 - s) [closed form]") {
+TEST_CASE(
+    "stability checks: the energy of a pair at a step s of its limit wavers by (1 + s)/(1 - s) [closed "
+    "form]") {
   ref::Parameters p;
   p.plasticity = p.breakage = p.contact_damping = false;
   p.xi = 0;
@@ -138,7 +144,7 @@ TEST_CASE("guards: the energy of a pair at a step s of its limit wavers by (1 + 
   CHECK(most / least < allowed_excess(w));
 }
 
-TEST_CASE("guards: work of the platens is what an elastic specimen holds [3 %]") {
+TEST_CASE("stability checks: work of the platens is what an elastic specimen holds [3 %]") {
   ref::Parameters p;
   p.plasticity = p.breakage = false;
   p.xi = 0;
@@ -151,7 +157,7 @@ TEST_CASE("guards: work of the platens is what an elastic specimen holds [3 %]")
   CHECK(w.platens.work > 0);
 }
 
-TEST_CASE("guards: a particle faster than a wave, sqrt(2 k/m) d0 for equal spheres") {
+TEST_CASE("stability checks: a particle faster than a wave, sqrt(2 k/m) d0 for equal spheres") {
   Packed made = packed({});
   World& w = made.world;
   double square = 0;
@@ -166,7 +172,8 @@ TEST_CASE("guards: a particle faster than a wave, sqrt(2 k/m) d0 for equal spher
   CHECK(has(said(make_stability_checks(w), w), fmt::format("particle {} moves at", w.particles.gid[3])));
 }
 
-TEST_CASE("guards: a bond that turns through more than a right angle in a step, of nested spheres") {
+TEST_CASE(
+    "stability checks: a bond that turns through more than a right angle in a step, of nested spheres") {
   ref::Parameters p;
   Assembly a = scene::free_body({{4, 0.01, {0, 0, 0}}, {7, 0.01, {0, 0, 0.02}}, {9, 0.005, {1e-6, 0, 0}}},
                                 0.01, scene::options(p).features);
@@ -180,18 +187,19 @@ TEST_CASE("guards: a bond that turns through more than a right angle in a step, 
   CHECK(has(why, "the spheres are nested"));
 }
 
-TEST_CASE("guards: a particle is lost ten sizes away") {
+TEST_CASE("stability checks: a particle is lost ten sizes away") {
   Packed made = packed({});
   World& w = made.world;
   const StabilityChecks checks = make_stability_checks(w);
   std::fill(w.bonds.damage_normal.begin(), w.bonds.damage_normal.end(), 1.0);
-  w.particles.position[8].x += 9.0 * guards.size;
-  CHECK(said(guards, w) == "");
-  w.particles.position[8].x += 2.0 * guards.size;
-  CHECK(has(said(guards, w), fmt::format("particle {} is lost", w.particles.gid[8])));
+  w.particles.position[8].x += 9.0 * checks.size;
+  CHECK(said(checks, w) == "");
+  w.particles.position[8].x += 2.0 * checks.size;
+  CHECK(has(said(checks, w), fmt::format("particle {} is lost", w.particles.gid[8])));
 }
 
-TEST_CASE("guards: contacts that are stiffer than what the step was found from are named as the cause") {
+TEST_CASE(
+    "stability checks: contacts that are stiffer than what the step was found from are named as the cause") {
   Packed made = packed({});
   World& w = made.world;
   ContactTable& c = w.contacts;

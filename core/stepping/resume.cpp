@@ -1,10 +1,12 @@
-#include "core/world/resume.hpp"
+#include "core/stepping/resume.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 #include "core/base/error.hpp"
 #include "core/tables/row_order.hpp"
+#include "core/world/scatter_plans.hpp"
+#include "core/world/stable_step.hpp"
 
 namespace breccia {
 namespace {

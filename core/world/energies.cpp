@@ -1,0 +1,84 @@
+#include "core/world/energies.hpp"
+
+#include <cmath>
+
+#include "core/world/loop_views.hpp"
+#include "kernels/loops/bond_energy.hpp"
+
+namespace breccia {
+
+BrokenCount count_broken(const World& w) {
+  std::vector<BrokenCount> blocks;
+  return sum_pairs(w.partition, w.bonds, w.options.threads, blocks, [&](std::size_t k) {
+    const BondState state = bond_state(w.bonds, k);
+    return BrokenCount{std::size_t{state == BondState::broken_tension},
+                       std::size_t{state == BondState::broken_shear}};
+  });
+}
+
+namespace {
+
+/// J, of one particle.
+double kinetic_energy_of(const ParticleTable& p, std::size_t row, double factor) {
+  double twice = p.mass[row] * dot(p.velocity[row], p.velocity[row]);
+  if (!p.spin.empty()) twice += inertia(factor, p.mass[row], p.radius[row]) * dot(p.spin[row], p.spin[row]);
+  return 0.5 * twice;
+}
+
+}  // namespace
+
+double kinetic_energy(const World& w) {
+  std::vector<double> blocks;
+  const double factor = inertia_factor(w);
+  return sum_particles(w.partition, w.options.threads, blocks,
+                       [&](std::size_t row) { return kinetic_energy_of(w.particles, row, factor); });
+}
+
+double kinetic_energy_of_bonded(const World& w) {
+  std::vector<char> is_held(w.particles.position.size(), 0);
+  for (std::size_t k = 0; k < w.bonds.padded; ++k)
+    if (w.bonds.stiffness[k] > 0.0 && bond_state(w.bonds, k) == BondState::intact)
+      is_held[w.bonds.row_lo[k]] = is_held[w.bonds.row_hi[k]] = 1;
+  std::vector<double> blocks;
+  const double factor = inertia_factor(w);
+  return sum_particles(w.partition, w.options.threads, blocks, [&](std::size_t row) {
+    return is_held[row] ? kinetic_energy_of(w.particles, row, factor) : 0.0;
+  });
+}
+
+double stored_energy(const World& w, double back) {
+  std::vector<double> blocks;
+  const ParticleTable& p = w.particles;
+  const auto distance_of = [&](Row lo, Row hi) {
+    return norm(p.position[hi] - p.position[lo] - back * (p.velocity[hi] - p.velocity[lo]));
+  };
+  const BondTable& b = w.bonds;
+  const bool coupled = w.features.criterion == Criterion::coupled;
+  const BondEnergyIn in = bond_energy_in(w, back);
+  const double sum = std::visit(
+      [&](const auto& law) {
+        return sum_pair_ranges(
+            w.partition, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
+              double energy = w.undamaged_energy(in, first, last);
+              if (b.damage_normal.empty()) return energy;
+              for (std::size_t k = first; k < last; ++k)
+                if (b.damage_normal[k] > 0.0 || b.damage_shear[k] > 0.0)
+                  energy += stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k),
+                                          distance_of(b.row_lo[k], b.row_hi[k]), coupled);
+              return energy;
+            });
+      },
+      w.law);
+  const ContactTable& c = w.contacts;
+  if (!w.neighbour_list.awake) return sum;
+  return sum + sum_pairs(w.partition, c, w.options.threads, blocks, [&](std::size_t k) {
+           const double overlap = c.free_length[k] - distance_of(c.row_lo[k], c.row_hi[k]);
+           if (overlap <= 0.0) return 0.0;
+           double energy = 0.5 * c.stiffness[k] * overlap * overlap;
+           if (w.shear_ratio > 0.0)
+             energy += 0.5 * dot(c.shear_force[k], c.shear_force[k]) / (w.shear_ratio * c.stiffness[k]);
+           return energy;
+         });
+}
+
+}  // namespace breccia

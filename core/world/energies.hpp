@@ -1,0 +1,27 @@
+// Energies of a world as it is, and how many of its bonds are broken: sums over all ranks.
+#pragma once
+#include "core/world/world.hpp"
+
+namespace breccia {
+
+struct BrokenCount {
+  std::size_t tension = 0, shear = 0;
+  BrokenCount& operator+=(const BrokenCount& o) {
+    tension += o.tension, shear += o.shear;
+    return *this;
+  }
+};
+BrokenCount count_broken(const World& world);
+
+/// J, of plain velocities, which belong to half a step ago.
+double kinetic_energy(const World& world);
+
+/// J, the same of the particles that an intact bond holds.
+double kinetic_energy_of_bonded(const World& world);
+
+/// J, of bonds and contacts.
+/// @param back  s, by which the positions are taken back along the velocities: the world's step gives the
+///              moment of the last forces, and of the history
+double stored_energy(const World& world, double back = 0.0);
+
+}  // namespace breccia

@@ -1,0 +1,59 @@
+#include "core/world/loop_views.hpp"
+
+#include "kernels/loops/bond_energy.hpp"
+
+namespace breccia {
+
+BondPassIn bond_pass_in(const World& w) {
+  const ParticleTable& p = w.particles;
+  const BondTable& b = w.bonds;
+  return {w.dt,
+          constants_of(w.law),
+          p.position,
+          p.velocity,
+          p.spin,
+          b.row_lo,
+          b.row_hi,
+          b.rest_length,
+          constant_columns(b),
+          w.single_bonds.constants()};
+}
+
+BondEnergyIn bond_energy_in(const World& w, double back) {
+  const ParticleTable& p = w.particles;
+  const BondTable& b = w.bonds;
+  return {.position = p.position,
+          .velocity = p.velocity,
+          .row_lo = b.row_lo,
+          .row_hi = b.row_hi,
+          .rest_length = b.rest_length,
+          .stiffness = b.stiffness,
+          .shear_x = b.shear_x,
+          .shear_y = b.shear_y,
+          .shear_z = b.shear_z,
+          .plastic_stretch = b.plastic_stretch,
+          .damage_normal = b.damage_normal,
+          .damage_shear = b.damage_shear,
+          .back = back,
+          .shear_ratio = w.shear_ratio};
+}
+
+Motion motion_of(World& w) {
+  ParticleTable& p = w.particles;
+  return {p.position, p.velocity,        p.spin,
+          p.force,    p.torque,          p.mass,
+          p.radius,   inertia_factor(w), w.options.features.rotation};
+}
+
+BondPassHistory bond_pass_history(World& w) {
+  BondTable& b = w.bonds;
+  return {history_columns(b),
+          w.single_bonds.history(),
+          {b.spring_force, b.viscous_force, b.shear_factor, w.ledger.bonds}};
+}
+
+double inertia_factor(const World& w) {
+  return w.space == Space::two_d ? disc_inertia_factor : sphere_inertia_factor;
+}
+
+}  // namespace breccia

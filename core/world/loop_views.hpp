@@ -1,0 +1,20 @@
+// Views of a world's tables for the loops: built at the call, dead with it.
+#pragma once
+#include "core/world/world.hpp"
+
+namespace breccia {
+
+/// What the bond pass reads and what it changes.
+BondPassIn bond_pass_in(const World& world);
+BondPassHistory bond_pass_history(World& world);
+
+/// What the energy of undamaged bonds reads; places as of `back` seconds ago.
+BondEnergyIn bond_energy_in(const World& world, double back);
+
+/// Views of all rows of the particles, for integration.
+Motion motion_of(World& world);
+
+/// I = factor m r^2
+double inertia_factor(const World& world);
+
+}  // namespace breccia

@@ -1,0 +1,100 @@
+#include "core/world/make_world.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/bonding/law_of_material.hpp"
+#include "core/elastic/elastic_network.hpp"
+#include "core/world/scatter_plans.hpp"
+#include "core/world/stable_step.hpp"
+
+namespace breccia {
+namespace {
+
+using std::numbers::pi;
+
+void set_masses(ParticleTable& p, double density, Space space) {
+  for (std::size_t row = 0; row < p.size; ++row) {
+    const double r = p.radius[row];
+    // (B1)
+    p.mass[row] = density * (space == Space::two_d ? pi * r * r : 4.0 / 3.0 * pi * r * r * r);
+  }
+}
+
+void set_bond_constants(World& w) {
+  const ParticleTable& p = w.particles;
+  BondTable& b = w.bonds;
+  // a strength area of its own partitions space as it is; otherwise strength and stiffness share alpha A
+  for (double& area : b.area) area *= w.alpha;  // (P21) (B11)
+  const std::vector<double> stiffness = bond_stiffness(w.law, p, b);
+  for (std::size_t k = 0; k < b.padded; ++k) {
+    const Row lo = b.row_lo[k], hi = b.row_hi[k];
+    b.stiffness[k] = k < b.size ? stiffness[k] : 0.0;  // none for padding
+    if (!b.arm_offset.empty())
+      b.arm_offset[k] = 0.5 * (p.radius[lo] - p.radius[hi]) / (p.radius[lo] + p.radius[hi]);
+  }
+}
+
+/// What the scene leaves out and the kernel still computes is never reached.
+BondLaw law_of_scene(const Material& material, double shear_ratio, const Features& asked) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  Material m = material;
+  if (!asked.breakage) {
+    m.tensile_strength = m.shear_strength = never;
+    for (const char* strength : {"normal_strength", "bond_shear_strength"})
+      if (m.own.contains(strength)) m.own[strength] = never;
+  }
+  BondLaw law = law_of(m, shear_ratio);
+  if (!asked.plasticity) std::visit([](auto& l) { l.never_yield(); }, law);
+  return law;
+}
+
+}  // namespace
+
+World make_world(const Assembly& assembly, const Material& material, const AreaFactor& factor,
+                 const WorldOptions& options) {
+  World w;
+  w.options = options;
+  w.body = assembly.body;
+  w.material = material;
+  w.alpha = factor.alpha;
+  w.space = assembly.space;
+  w.volume = assembly.volume();
+  w.law = law_of_scene(material, factor.shear_ratio, options.features);
+  const LoopKind kind{options.precision, options.ledger};
+  w.features = built_features(w.law, options.features, kind);
+  std::visit(
+      [&](const auto& law) {
+        w.young = law.young;
+        w.shear_ratio = law.shear_ratio;
+        w.friction = law.failure.friction_dynamic;
+      },
+      w.law);
+  w.particles = assembly.particles;
+  w.bonds = assembly.bonds;
+  w.first_top = assembly.first_top;
+  w.partition = serial_partition(w.particles.size);
+  set_masses(w.particles, material.density, w.space);
+  set_bond_constants(w);
+  choose_step(w);
+  if (options.precision == Precision::mixed) w.single_bonds = single_bonds(w.bonds);
+  w.platens = make_platens(assembly, w.particles, options.rough_platens, material.young_modulus);
+  w.confinement = make_confinement(assembly, options.skin_weights, options.rigid_skin);
+  // (B97)
+  w.neighbour_list = make_neighbour_list(assembly, options.new_contacts, 0.2 * assembly.mean_radius);
+  w.cracks = make_crack_record(options.cracks && w.features.breakage, options.threads, w.bonds.size);
+  plan_bonds(w);
+  w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set, kind);
+  w.integrate_free = integrate_free_for(options.instruction_set);
+  w.work_of_free = work_of_free_for(options.instruction_set);
+  w.undamaged_energy = undamaged_energy_for(options.instruction_set);
+  if (options.ledger) {
+    for (Column<double>* column : {&w.bonds.spring_force, &w.bonds.viscous_force, &w.bonds.shear_factor})
+      column->assign(w.bonds.padded, 0.0);
+    w.ledger = make_ledger(w.bonds.padded);
+  }
+  return w;
+}
+
+}  // namespace breccia
