@@ -35,8 +35,7 @@ struct FoundCheckpoint {
 /// disk, leaves at least one that is whole. Called on every rank; what is not in the tables is the
 /// root's.
 /// @throws WriteError; the checkpoints that were there are then as they were, but for the name of
-/// the newest where
-///         the disk fails at the very last
+///         the newest where the disk fails at the very last
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointHead& head, World& world,
                       const LoadState& state, const LoadResult& result);
 

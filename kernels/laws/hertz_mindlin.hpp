@@ -45,11 +45,12 @@ struct ContactMemory {
 /// (Tsuji, Tanaka and Ishida 1992).
 /// dissipative: never pulls; the tangential spring is incremental and gives back less while the
 /// overlap shrinks, so that no path gains energy (Thornton, Cummins and Cleary, Powder Technol. 233,
-/// 2013); friction is measured by the total normal force and limits spring and dashpot together.
-/// classic: as widely used codes have it, for comparison with them: pulls at the end of a damped
-/// impact; the tangential spring force is the present stiffness times the stretch so far; friction
-/// is measured by the normal spring alone and limits the tangential spring alone. Some paths gain up
-/// to 4 % of tangential energy.
+/// 2013); friction is measured by the total normal force and limits spring and dashpot
+/// together.
+/// classic: as widely used codes have it, for comparison with them: pulls at the end of a
+/// damped impact; the tangential spring force is the present stiffness times the stretch so
+/// far; friction is measured by the normal spring alone and limits the tangential spring alone.
+/// Some paths gain up to 4 % of tangential energy.
 enum class HertzForm : unsigned char { dissipative, classic };
 
 inline Vec3 cut_to(const Vec3& shear, double limit) {

@@ -181,8 +181,7 @@ template <Features features, class Law, class Bonds>
 /// stops inlining a law into its loop by itself, and wide registers then travel through memory (19
 /// ns a bond instead of 13).
 /// @tparam ledger  losses are summed block by block, `losses[b/64]`; ranges then begin at whole
-/// blocks, so that
-///                 no sum depends on how the bonds are shared out
+///                 blocks, so that no sum depends on how the bonds are shared out
 template <Features features, bool ledger, class Law, class Bonds>
 [[gnu::always_inline]] inline void bond_loop(const Law& law, double dt, const ParticleRows& p,
                                              const Bonds& bonds, std::size_t first, std::size_t last,
