@@ -40,7 +40,7 @@ struct StepEstimate {
 
 /// Looks at a step in use, and at what it should be instead. Costs some fifty applications of K.
 /// @param enough  a number up to which the step is good as it is: `critical` is not worked out and
-/// is the step
+///                is the step
 StepEstimate estimate_step(const StepScene& scene, double dt, double enough = 0.0);
 
 /// No more than this times `dt`-fold can be added by the contacts given: a proven bound, by norms

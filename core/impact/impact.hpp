@@ -112,7 +112,7 @@ double impact_steps(const ImpactScene& scene, double critical_step);
 /// Runs a scene from start to end. `result` holds what there is when it throws.
 /// @param interrupted  asked now and then; true ends the run
 /// @throws BadInput as above; SimulationBroke: not a number, an overlap beyond half a radius, more
-/// or deeper contacts than the step allows
+///         or deeper contacts than the step allows
 void run_impact(const ImpactScene& scene, ImpactResult& result,
                 const std::function<bool()>& interrupted = {});
 

@@ -142,7 +142,7 @@ bool is_slow(const Run& run) {
 
 /// Stage 1: the pressure rises until the specimen rests under it. (B67)
 /// @returns false when interrupted, or when it does not come to rest: a stage that has not cannot
-/// be followed by the next
+///          be followed by the next
 bool press_hydrostatically(Run& run) {
   World& w = run.w;
   const double pressure = run.test.confinement, crossing = crossing_time(w, run.assembly);

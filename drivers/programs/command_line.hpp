@@ -35,7 +35,7 @@ int available_cores();
 
 /// Readies the process (streams, signals) and reads the words after the program's name.
 /// @returns nothing when the program is to run; else its exit code, after --help, --version, or one
-/// line on stderr; of several ranks the root alone speaks
+///          line on stderr; of several ranks the root alone speaks
 std::optional<int> read_command_line(CLI::App& app, int argc, char** argv);
 
 /// Runs `body` on at most `threads` threads and turns what it throws into one line on stderr and

@@ -15,7 +15,7 @@ void check_specimen_type(const std::filesystem::path& file);
 /// optionally `group`; lines that begin with # are comments. .mdpa (Kratos): the nodes of spheric
 /// particles; groups from NodalData COHESIVE_GROUP.
 /// @throws BadInput: one line with file and line: absent, empty, not a number, columns, double id,
-/// radius not above zero
+///         radius not above zero
 Specimen read_specimen(const std::filesystem::path& file);
 
 /// Turns the axis to z by a cyclic permutation of the coordinates and moves the middle of the box
@@ -24,7 +24,7 @@ Specimen read_specimen(const std::filesystem::path& file);
 /// In the plane the axis becomes z, the coordinate that is the same for all discs becomes y = 0,
 /// and the third one x.
 /// @throws BadInput in the plane: centres do not lie in one plane along the axis, to 1e-9 of the
-/// specimen's size
+///         specimen's size
 /// @param of_body  per sphere, 0 where it does not belong to the body whose box is meant; empty:
 ///         all do
 Specimen place_specimen(Specimen, char axis, std::optional<Vec3> centre = {}, Space space = Space::three_d,

@@ -44,8 +44,8 @@ struct ContactMemory {
 /// the same fraction of critical damping as the normal one acts beside the tangential spring
 /// (Tsuji, Tanaka and Ishida 1992).
 /// dissipative: never pulls; the tangential spring is incremental and gives back less while the
-/// overlap shrinks, so that no path gains energy (Thornton, Cummins and Cleary, Powder Technol. 233,
-/// 2013); friction is measured by the total normal force and limits spring and dashpot
+/// overlap shrinks, so that no path gains energy (Thornton, Cummins and Cleary, Powder Technol.
+/// 233, 2013); friction is measured by the total normal force and limits spring and dashpot
 /// together.
 /// classic: as widely used codes have it, for comparison with them: pulls at the end of a
 /// damped impact; the tangential spring force is the present stiffness times the stretch so
