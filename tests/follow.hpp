@@ -1,5 +1,5 @@
-// One bond along a prescribed path, as the production loop runs it: one number at a time, and in wide
-// registers whose lanes carry different bonds.
+// One bond along a prescribed path, as the production loop runs it: one number at a time, and in
+// wide registers whose lanes carry different bonds.
 #pragma once
 #include <experimental/simd>
 #include <vector>
@@ -44,8 +44,8 @@ struct Outcome {
   BondHistory<double> history;
 };
 
-/// Bonds along their paths, as many at once as R has lanes; a path that is shorter than others stands still
-/// at its end.
+/// Bonds along their paths, as many at once as R has lanes; a path that is shorter than others
+/// stands still at its end.
 template <Features features, class R, class Law>
 std::vector<std::vector<Outcome>> follow(const Law& law, const std::vector<BondConstants<double>>& bonds,
                                          const std::vector<Path>& paths) {

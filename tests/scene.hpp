@@ -1,5 +1,5 @@
-// What several tests share: the same material for the fast code and for the reference, bodies made by hand,
-// small packings, and the whole state of a world handed over to the reference.
+// What several tests share: the same material for the fast code and for the reference, bodies made
+// by hand, small packings, and the whole state of a world handed over to the reference.
 #pragma once
 #include <algorithm>
 #include <map>
@@ -106,7 +106,8 @@ inline AreaFactor factor(const reference::Parameters& p) {
   return f;
 }
 
-/// Two spheres of radius 1 m, one upon the other, both held: the pair of the Kratos benchmarks 22 and 24.
+/// Two spheres of radius 1 m, one upon the other, both held: the pair of the Kratos benchmarks 22
+/// and 24.
 inline World kratos_pair(reference::Parameters p, double dt) {
   p.E = 1e9;
   p.sigma_t = 1e6;
@@ -169,7 +170,8 @@ inline std::vector<InstructionSet> sets_of_this_machine() {
 inline void drive(World& w, double lower, double upper) {
   w.platens.velocity = {Vec3{0, 0, lower}, Vec3{0, 0, upper}};
 }
-/// 150 packed spheres of alpha 0.8, pressed for 150 steps by platens so fast that bonds break where they may.
+/// 150 packed spheres of alpha 0.8, pressed for 150 steps by platens so fast that bonds break where
+/// they may.
 inline World crushed(const Features& asked) {
   reference::Parameters p;
   p.alpha = 0.8;

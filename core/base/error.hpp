@@ -1,4 +1,5 @@
-// The three ways a program ends badly; each carries one line that names the place, the cause and the cure.
+// The three ways a program ends badly; each carries one line that names the place, the cause and
+// the cure.
 #pragma once
 #include <fmt/format.h>
 

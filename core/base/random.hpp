@@ -1,5 +1,5 @@
-// Random numbers with the same bits everywhere: std:: distributions differ from one library to the next,
-// engines do not.
+// Random numbers with the same bits everywhere: std:: distributions differ from one library to the
+// next, engines do not.
 #pragma once
 #include <cstdint>
 #include <random>

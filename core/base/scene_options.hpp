@@ -7,11 +7,12 @@ namespace breccia {
 /// How the area factor alpha of the bonds is found: docs/model.md, "The area factor".
 enum class AlphaRule { automatic, affine, porosity, number };
 
-/// paper: k_s/k_n = 1/(2(1 + nu)); matched: k_s/k_n and alpha such that the specimen has the E and the nu
-/// asked for.
+/// paper: k_s/k_n = 1/(2(1 + nu)); matched: k_s/k_n and alpha such that the specimen has the E and
+/// the nu asked for.
 enum class Elasticity { paper, matched };
 
-/// plane: two dimensions, discs of unit thickness in the x-z plane (y = 0); areas are lengths times 1 m.
+/// plane: two dimensions, discs of unit thickness in the x-z plane (y = 0); areas are lengths times
+/// 1 m.
 enum class Space { three_d, two_d };
 
 /// Where the area of a bond comes from: docs/model.md, "Area".
@@ -20,8 +21,9 @@ enum class AreaRule { minimum, harmonic, polyhedron, voronoi };
 /// How forces of bonds whose ends are shared between threads are summed.
 enum class ScatterKind { atomic, private_sums, gather };
 
-/// Which particles the loading holds. ends: layers at both ends. strips: two strips along the mantle of a
-/// disc on edge. halves: the mantle's two halves and the end layers with them, a direct shear box.
+/// Which particles the loading holds. ends: layers at both ends. strips: two strips along the
+/// mantle of a disc on edge. halves: the mantle's two halves and the end layers with them, a direct
+/// shear box.
 enum class Support { ends, strips, halves };
 
 /// How the dashpots of bonds and contacts enter the step: docs/model.md, "Time step and mass
@@ -33,7 +35,8 @@ inline std::string_view name_of(DampingScheme scheme) {
   return scheme == DampingScheme::capped ? "capped" : scheme == DampingScheme::summed ? "summed" : "explicit";
 }
 
-/// What fluid pressure on a particle of the skin acts on: pi r^2, or its share of the mantle (Voronoi).
+/// What fluid pressure on a particle of the skin acts on: pi r^2, or its share of the mantle
+/// (Voronoi).
 enum class SkinWeights { radius, voronoi };
 
 }  // namespace breccia

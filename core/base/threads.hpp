@@ -1,5 +1,5 @@
-// Threads: every loop of the step is cut into as many contiguous ranges as there are threads, and TBB runs
-// them. Which thread runs which range does not matter to any result.
+// Threads: every loop of the step is cut into as many contiguous ranges as there are threads, and
+// TBB runs them. Which thread runs which range does not matter to any result.
 #pragma once
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -21,8 +21,9 @@ namespace breccia {
 template <class Index, class Work, class Partitioner = tbb::auto_partitioner>
 void for_tasks(Index tasks, const Work& work, const Partitioner& partitioner = {}) {
 #if defined(__SANITIZE_THREAD__)
-  // Debian's TBB is not instrumented: the thread sanitizer is told of its fork and join. Statics, and the
-  // task made before the fork: nothing of the task may be read before it has said that it has begun
+  // Debian's TBB is not instrumented: the thread sanitizer is told of its fork and join. Statics,
+  // and the task made before the fork: nothing of the task may be read before it has said that it
+  // has begun
   static char fork = 0, join = 0;
   const auto task = [&work](Index k) {
     __tsan_acquire(&fork);
@@ -56,8 +57,8 @@ void sort_on_threads(Iterator first, Iterator last) {
 #endif
 }
 
-/// First row of a range when `rows` are cut into `ranges` parts that are multiples of `batch` but for the
-/// last.
+/// First row of a range when `rows` are cut into `ranges` parts that are multiples of `batch` but
+/// for the last.
 inline std::size_t range_first(std::size_t rows, int range, int ranges, std::size_t batch = 1) {
   const std::size_t batches = (rows + batch - 1) / batch;
   return std::min(rows, batches * static_cast<std::size_t>(range) / static_cast<std::size_t>(ranges) * batch);
@@ -71,8 +72,8 @@ void for_rows(std::size_t rows, int ranges, const Work& work) {
   for_ranges(ranges, [&](int k) { work(range_first(rows, k, ranges), range_first(rows, k + 1, ranges)); });
 }
 
-/// Sum of term(row) over rows [0, rows), added in blocks of fixed size: the same bits for any number of
-/// threads. T needs +=; `block_sums` is storage kept between calls.
+/// Sum of term(row) over rows [0, rows), added in blocks of fixed size: the same bits for any
+/// number of threads. T needs +=; `block_sums` is storage kept between calls.
 template <class T, class Term>
 T sum_rows(std::size_t rows, int ranges, std::vector<T>& block_sums, const Term& term) {
   constexpr std::size_t block = 1024;

@@ -46,8 +46,8 @@ struct Holder {
 
 Holder holder_of(const Body& body, Support grip, double mean_radius) {
   // (B61): strips of half-width 0.15 R, 2.5 mean radii deep: of the spheres that reach that near
-  // the mantle, as the skin is found. With centres that near only, the strips crush their way in at 2.4 MPa
-  // where the disc would split at 2.8 (cement, 15,070 spheres)
+  // the mantle, as the skin is found. With centres that near only, the strips crush their way in at
+  // 2.4 MPa where the disc would split at 2.8 (cement, 15,070 spheres)
   if (grip == Support::strips)
     return {grip, 0.5 * body.diameter - 2.5 * mean_radius, 0.075 * body.diameter, &body, mean_radius};
   // a shear box leaves a band of five mean radii free
@@ -122,8 +122,8 @@ void set_bonds(Assembly& a, const std::vector<Link>& links, const Features& feat
   }
 }
 
-/// Areas of the bonds, of padding too: its stresses and strains stay numbers. Bonds without an area are
-/// dropped.
+/// Areas of the bonds, of padding too: its stresses and strains stay numbers. Bonds without an area
+/// are dropped.
 void set_areas(Assembly& a, const BondingRule& rule, const Features& features, int threads) {
   const auto areas = [&](AreaRule which) {
     return bond_areas(which, a.particles, a.bonds, a.skin, a.body, a.space, threads,

@@ -1,5 +1,5 @@
-// A specimen made ready: particles in their order, bonds between them, the layers that platens hold, the
-// skin. It is made once; every run of a series starts from a copy.
+// A specimen made ready: particles in their order, bonds between them, the layers that platens
+// hold, the skin. It is made once; every run of a series starts from a copy.
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -45,8 +45,8 @@ struct Assembly {
   double load_section() const;  ///< m^2, by which a load becomes the stress that the test reports
 };
 
-/// Length of a bond that stiffness and strains refer to: the rest length, or 0.2 (r_i + r_j) for nested
-/// spheres. (B8)
+/// Length of a bond that stiffness and strains refer to: the rest length, or 0.2 (r_i + r_j) for
+/// nested spheres. (B8)
 inline double strain_length_of(double rest_length, double radius_sum) {
   return std::max(rest_length, 0.2 * radius_sum);
 }

@@ -9,12 +9,13 @@
 
 namespace breccia {
 
-/// Areas of the nominal mantle nearest (in the radical Voronoi sense) to each particle of the skin, in its
-/// order, m^2; plane: lengths times 1 m. They add up to the whole mantle: only the skin shares it, so what a
-/// particle behind the skin sees through a gap goes to the skin around the gap. 0 for one that touches none.
-/// Made from the positions that bonds were made at.
+/// Areas of the nominal mantle nearest (in the radical Voronoi sense) to each particle of the skin,
+/// in its order, m^2; plane: lengths times 1 m. They add up to the whole mantle: only the skin
+/// shares it, so what a particle behind the skin sees through a gap goes to the skin around the
+/// gap. 0 for one that touches none. Made from the positions that bonds were made at.
 /// @param axis  of the body: 'z', or 'y' for a cylinder or disc that lies
-/// @throws BadInput: no skin, a row that is not there, a radius not above zero, a body without volume
+/// @throws BadInput: no skin, a row that is not there, a radius not above zero, a body without
+///         volume
 std::vector<double> mantle_areas(const ParticleTable& particles, std::span<const Row> skin, const Body& body,
                                  Space space = Space::three_d, int threads = 1, char axis = 'z');
 

@@ -1,5 +1,5 @@
-// What of a specimen hangs together: the pieces into which bonds join its spheres, and what hangs on
-// nothing between the bodies that the loading holds.
+// What of a specimen hangs together: the pieces into which bonds join its spheres, and what hangs
+// on nothing between the bodies that the loading holds.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -26,12 +26,14 @@ struct Connection {
   bool joined = false;    ///< the same, where surfaces that touch may help
 };
 
-/// Looks at the bonds of an assembly, and leaves out what hangs on nothing: it belongs to no gauge and to
-/// no pressed surface (Assembly::loose, Assembly::skin).
-/// @param contacts  whether the run has contacts: pieces that touch then carry load through each other
+/// Looks at the bonds of an assembly, and leaves out what hangs on nothing: it belongs to no gauge
+/// and to no pressed surface (Assembly::loose, Assembly::skin).
+/// @param contacts  whether the run has contacts: pieces that touch then carry load through each
+///         other
 Connection leave_out_loose(Assembly& assembly, bool contacts, int threads);
 
-/// Spheres with neighbours to speak of: what is far from all others must not move the middle of a specimen.
+/// Spheres with neighbours to speak of: what is far from all others must not move the middle of a
+/// specimen.
 struct MainBody {
   std::vector<char> has;   ///< per sphere, 1 in a piece of a tenth of the largest or more
   std::size_t pieces = 1;  ///< of that size, that are apart from each other

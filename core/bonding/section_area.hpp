@@ -1,4 +1,5 @@
-// Do the areas of the bonds add up to the body? What passes through horizontal levels, against the section.
+// Do the areas of the bonds add up to the body? What passes through horizontal levels, against the
+// section.
 #pragma once
 #include <span>
 #include <vector>

@@ -17,9 +17,9 @@ bool are_bonded(const NeighbourList& search, Row a, Row b) {
                             search.partners.begin() + search.first_partner[a + 1], b);
 }
 
-/// Largest distance that a particle has moved against a specimen that is stretched evenly along its axis, and
-/// the largest speed: what is uniform brings no two neighbours together by more than strain times their
-/// distance.
+/// Largest distance that a particle has moved against a specimen that is stretched evenly along its
+/// axis, and the largest speed: what is uniform brings no two neighbours together by more than
+/// strain times their distance.
 struct Moved {
   double distance2 = 0, speed2 = 0;
   Moved& operator+=(const Moved& o) {

@@ -1,5 +1,5 @@
-// Contacts between surfaces that were never bonded. The search sleeps until two of them can meet, then is
-// renewed whenever particles have used up the skin.
+// Contacts between surfaces that were never bonded. The search sleeps until two of them can meet,
+// then is renewed whenever particles have used up the skin.
 #pragma once
 #include <vector>
 
@@ -45,8 +45,8 @@ struct ContactMaterial {
   Space space = Space::three_d;
 };
 
-/// Makes the list of candidates anew, their dashpots not yet set; pairs that were in contact keep their
-/// history.
+/// Makes the list of candidates anew, their dashpots not yet set; pairs that were in contact keep
+/// their history.
 /// @param ledger  with the columns that an energy ledger needs
 void rebuild_neighbour_list(NeighbourList& search, ContactTable& contacts, const ParticleTable& particles,
                             const ContactMaterial& material, const Features& features, bool ledger,

@@ -43,14 +43,14 @@ Platens make_platens(const Assembly& a, const ParticleTable& particles, bool rou
     specimen_mass += particles.mass[row];
     if (row >= particles.free) p.mass[row >= a.first_top] += particles.mass[row];
   }
-  // the axial wave impedance of the specimen: critical for half its mass on half its stiffness, and a wave
-  // that reaches the platen is swallowed instead of sent back
+  // the axial wave impedance of the specimen: critical for half its mass on half its stiffness, and
+  // a wave that reaches the platen is swallowed instead of sent back
   p.dashpot = a.section() * std::sqrt(young_modulus * specimen_mass / a.volume());  // (B66)
   if (a.grip == Support::halves) {
-    // a lid must give way quickly where the band below it dilates. Its layer's motion is prescribed, so that its
-    // mass is the servo's to choose: of three specimens at 0.1 m/s and 1 to 4 MPa these parts hold the normal
-    // stress to 7, 4 and 1 % (root mean square to the peak) instead of 15, 11 and 2 %; a thirtieth of the mass
-    // is too light for the bonds that pull on it
+    // a lid must give way quickly where the band below it dilates. Its layer's motion is
+    // prescribed, so that its mass is the servo's to choose: of three specimens at 0.1 m/s and 1 to
+    // 4 MPa these parts hold the normal stress to 7, 4 and 1 % (root mean square to the peak)
+    // instead of 15, 11 and 2 %; a thirtieth of the mass is too light for the bonds that pull on it
     p.servo_part = 0.3;
     p.dashpot *= 0.5;
   }

@@ -9,7 +9,8 @@
 
 namespace breccia {
 
-/// The lower and the upper platen: the two bodies of held particles (layers, strips, halves of a shear box).
+/// The lower and the upper platen: the two bodies of held particles (layers, strips, halves of a
+/// shear box).
 struct Platens {
   bool rough = true;               ///< lateral motion prescribed too
   bool servo = false;              ///< driven along z by a pressure instead of at a given speed
@@ -44,8 +45,9 @@ Platens make_platens(const Assembly& assembly, const ParticleTable& particles, b
 void drive_platens(Platens& platens, const ParticleTable& particles, const Partition& partition,
                    std::size_t first_top, double dt);
 
-/// What surrounds the mantle: a fluid under pressure, forces p w on each particle of the skin with weights w
-/// that add up to the nominal surface; or a rigid wall that lets it slide along the axis only.
+/// What surrounds the mantle: a fluid under pressure, forces p w on each particle of the skin with
+/// weights w that add up to the nominal surface; or a rigid wall that lets it slide along the axis
+/// only.
 struct Confinement {
   bool rigid = false;   ///< x and y of the skin are fixed
   bool plane = false;   ///< two dimensions: the skin is two sides, normal to x
@@ -60,20 +62,20 @@ struct Confinement {
 /// @param rigid  a wall instead of a fluid
 Confinement make_confinement(const Assembly& assembly, SkinWeights weights, bool rigid);
 
-/// What the spheres of the lateral surface cover of it, as disks (discs: as lines) as wide as they are: 0.65
-/// to 0.9 of the nominal surface in packings. They stand for the whole of it, so that the fewer they are,
-/// the harder each is pressed.
+/// What the spheres of the lateral surface cover of it, as disks (discs: as lines) as wide as they
+/// are: 0.65 to 0.9 of the nominal surface in packings. They stand for the whole of it, so that the
+/// fewer they are, the harder each is pressed.
 double lateral_cover(const Assembly& assembly);
 
 /// True where a lateral direction has no meaning for the whole surface: all of it lies on the axis.
 bool is_one_sphere_wide(const Assembly& assembly);
 
-/// Adds the pressure forces; their net force and moment are removed by a least-squares correction. A sphere
-/// on the axis has no lateral direction and gets no force.
+/// Adds the pressure forces; their net force and moment are removed by a least-squares correction.
+/// A sphere on the axis has no lateral direction and gets no force.
 void apply_confinement(Confinement& confinement, ParticleTable& particles, const Partition& partition);
 
-/// A rigid wall takes up the lateral forces of the skin, all of them summed: called when they are complete.
-/// (B73)
+/// A rigid wall takes up the lateral forces of the skin, all of them summed: called when they are
+/// complete. (B73)
 void restrain_laterally(Confinement& confinement, ParticleTable& particles, const Partition& partition);
 
 }  // namespace breccia

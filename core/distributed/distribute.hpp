@@ -7,7 +7,8 @@ namespace breccia {
 /// The part of a whole world that one rank runs; the root keeps the whole one beside it.
 World distribute(World whole, const Ranks& ranks);
 
-/// The contacts that the root's replica has listed anew, and the step that it has chosen, to every rank.
+/// The contacts that the root's replica has listed anew, and the step that it has chosen, to every
+/// rank.
 void broadcast_contacts(World& world);
 
 }  // namespace breccia

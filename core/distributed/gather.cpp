@@ -9,7 +9,8 @@
 namespace breccia {
 namespace {
 
-/// Rows [first, first + size) of the root's column are those of each rank in turn; its other roles stay.
+/// Rows [first, first + size) of the root's column are those of each rank in turn; its other roles
+/// stay.
 template <class Table>
 void gather_columns(const Ranks& ranks, const Table& mine, Rows rows, Table* whole, bool (*wanted)(Role)) {
   const std::vector<std::size_t> sizes = sizes_of_all(ranks, rows.last - rows.first);
@@ -107,7 +108,8 @@ std::size_t collect_cracks(World& w, double axial_strain) {
   mine.missed = 0;
   if (!w.replica) return 0;
   w.replica->cracks.missed += std::accumulate(missed.begin(), missed.end(), std::size_t{0});
-  // ranks have bonds in rising order: of one moment they stand in the order of the whole table already
+  // ranks have bonds in rising order: of one moment they stand in the order of the whole table
+  // already
   std::stable_sort(fresh.begin(), fresh.end(),
                    [](const Crack& a, const Crack& b) { return a.time < b.time; });
   for (Crack& crack : fresh) crack.axial_strain = axial_strain;

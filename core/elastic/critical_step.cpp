@@ -127,9 +127,10 @@ struct SearchEffort {
   double settled = 0;  ///< distance of the stability number from 1 at which a last secant step may end it
 };
 
-/// ln of the number over ln dt is a line of slope 1 (damping) to 2 (stiffness), or less where a scheme holds
-/// dashpots back: secants in these logarithms. Two crude values find the neighbourhood and the slope; their
-/// start vector is always the same, so that differences mean something long before the values do.
+/// ln of the number over ln dt is a line of slope 1 (damping) to 2 (stiffness), or less where a
+/// scheme holds dashpots back: secants in these logarithms. Two crude values find the neighbourhood
+/// and the slope; their start vector is always the same, so that differences mean something long
+/// before the values do.
 template <class Real>
 double step_at_limit(const StepScene& s, const SearchEffort& effort) {
   const double start = first_guess(s);

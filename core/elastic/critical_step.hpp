@@ -27,19 +27,20 @@ struct StepScene {
   int threads = 1;
 };
 
-/// What is known about a step. With K and C the stiffness and damping of bonds and contacts, the scheme
-/// (damping forces from velocities half a step old) is stable if and only if lambda(dt), the largest
-/// eigenvalue of M^-1 (dt^2 K/4 + dt C(dt)/2), is at most 1/(1 + alpha).
+/// What is known about a step. With K and C the stiffness and damping of bonds and contacts, the
+/// scheme (damping forces from velocities half a step old) is stable if and only if lambda(dt), the
+/// largest eigenvalue of M^-1 (dt^2 K/4 + dt C(dt)/2), is at most 1/(1 + alpha).
 struct StepEstimate {
-  /// lambda (1 + alpha): 1 is the limit. From below, short by more than 2 % with a probability under 1e-3
+  /// lambda (1 + alpha): 1 is the limit. From below, short by more than 2 % with a probability
+  /// under 1e-3
   double number = 0;
   double critical =
       0;  ///< s, where it would be 0.98, since it comes from below: a secant, good near the step in use
 };
 
 /// Looks at a step in use, and at what it should be instead. Costs some fifty applications of K.
-/// @param enough  a number up to which the step is good as it is: `critical` is not worked out and is the
-/// step
+/// @param enough  a number up to which the step is good as it is: `critical` is not worked out and
+///                is the step
 StepEstimate estimate_step(const StepScene& scene, double dt, double enough = 0.0);
 
 /// No more than this times `dt`-fold can be added by the contacts given: a proven bound, by norms
@@ -53,12 +54,13 @@ double stability_number_bound(const StepScene& scene, std::span<const std::size_
 /// @returns s; infinity where nothing is stiff
 double critical_time_step(const StepScene& scene);
 
-/// The same step converged to 1e-9, without the 2 %: what tests and studies hold against closed forms.
+/// The same step converged to 1e-9, without the 2 %: what tests and studies hold against closed
+/// forms.
 /// @returns s
 double exact_time_step(const StepScene& scene);
 
-/// 2/sqrt of the largest eigenvalue of M^-1 K of each particle while its neighbours are fixed, undamped.
-/// (P12) (P14)
+/// 2/sqrt of the largest eigenvalue of M^-1 K of each particle while its neighbours are fixed,
+/// undamped. (P12) (P14)
 /// @returns s, per particle; infinity for one that nothing touches
 std::vector<double> own_time_steps(const StepScene& scene);
 

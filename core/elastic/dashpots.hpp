@@ -1,5 +1,5 @@
-// The dashpots of bonds and contacts: the paper's, and two schemes that hold back those too strong for the
-// step. docs/model.md, "Time step and mass scaling".
+// The dashpots of bonds and contacts: the paper's, and two schemes that hold back those too strong
+// for the step. docs/model.md, "Time step and mass scaling".
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -50,8 +50,8 @@ void sum_loads(Dashpots& dashpots, const ParticleTable& particles, const BondTab
 double bond_dashpot(const Dashpots& dashpots, const ParticleTable& particles, const BondTable& bonds,
                     std::size_t k, double dt);
 
-/// N s/m, of a contact at a step. Its ends' loads are those of their bonds and its own: what it is does not
-/// depend on which other pairs the search has listed.
+/// N s/m, of a contact at a step. Its ends' loads are those of their bonds and its own: what it is
+/// does not depend on which other pairs the search has listed.
 double contact_dashpot(const Dashpots& dashpots, const ParticleTable& particles, const ContactTable& contacts,
                        std::size_t k, double dt);
 

@@ -148,8 +148,8 @@ std::vector<double> bond_stiffness(const BondLaw& law, const ParticleTable& p, c
 
 namespace {
 
-/// Conjugate gradients on the free unknowns, preconditioned by the diagonal; a prescribed unknown has a zero
-/// there.
+/// Conjugate gradients on the free unknowns, preconditioned by the diagonal; a prescribed unknown
+/// has a zero there.
 /// @param u  prescribed values, and a first guess of the others
 /// @returns turns, `limit` where that was not enough
 long solve(const ElasticNetwork& net, const Eigen::VectorXd& inverse_diagonal, Eigen::VectorXd& u,

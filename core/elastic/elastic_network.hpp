@@ -1,5 +1,5 @@
-// Bonds and contacts as a linear elastic network: the stiffness that the probe for alpha solves with, and
-// that bounds the time step.
+// Bonds and contacts as a linear elastic network: the stiffness that the probe for alpha solves
+// with, and that bounds the time step.
 #pragma once
 #include <Eigen/Core>
 #include <functional>
@@ -15,8 +15,8 @@ namespace breccia {
 template <class Real>
 using VectorOf = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
-/// Per bond, then per contact: unit normal, stiffnesses, arms. Six unknowns a particle: displacement, then
-/// rotation. In floats, for estimates, it takes half the memory and time.
+/// Per bond, then per contact: unit normal, stiffnesses, arms. Six unknowns a particle:
+/// displacement, then rotation. In floats, for estimates, it takes half the memory and time.
 template <class Real>
 struct Network {
   struct Spring {
@@ -42,7 +42,8 @@ struct SpringConstants {
 
 /// Springs lie where the particles are now.
 /// @param rotation   false: no arms, particles pass no torque
-/// @param constants  called with the row of each bond, then with bonds.size + the row of each contact
+/// @param constants  called with the row of each bond, then with bonds.size + the row of each
+///         contact
 template <class Real = double>
 Network<Real> elastic_network(const ParticleTable& particles, const BondTable& bonds,
                               const ContactTable& contacts, bool rotation, int threads,
@@ -52,15 +53,15 @@ Network<Real> elastic_network(const ParticleTable& particles, const BondTable& b
 template <class Real>
 void set_constants(Network<Real>& network, const std::function<SpringConstants(std::size_t)>& constants);
 
-/// What a spring passes on: N, what it pulls its lower end with, and that times its branch's normal and arm
-/// over radius, on both ends alike. One line of the cache, or half of one.
+/// What a spring passes on: N, what it pulls its lower end with, and that times its branch's normal
+/// and arm over radius, on both ends alike. One line of the cache, or half of one.
 template <class Real>
 struct alignas(8 * sizeof(Real)) SpringLoad {
   Vec<Real> pull, moment;
 };
 
-/// forces = K displacements; both of 6 * particles. Each spring is stretched once; particles then add up what
-/// theirs pass on, in the same order for any number of threads.
+/// forces = K displacements; both of 6 * particles. Each spring is stretched once; particles then
+/// add up what theirs pass on, in the same order for any number of threads.
 /// @param loads  of each spring: room that is kept between calls
 template <class Real>
 void apply_stiffness(const Network<Real>& network, const VectorOf<Real>& displacements,
@@ -81,8 +82,8 @@ std::vector<double> bond_stiffness(const BondLaw& law, const ParticleTable& part
 /// @param stiffness    N/m, k_n per bond
 /// @param shear_ratio  k_s/k_n
 /// @param rough  lateral motion of the layers fixed
-/// @param touching  pairs without a bond: they press where the specimen brings them nearer, and slide where
-///                  friction does not hold them
+/// @param touching  pairs without a bond: they press where the specimen brings them nearer, and
+///                  slide where friction does not hold them
 /// @throws BadInput when the specimen is not connected from end to end
 ElasticResponse probe(const Assembly& assembly, std::span<const double> stiffness, double shear_ratio,
                       bool rough, int threads, const Touching& touching = {});

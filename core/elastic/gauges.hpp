@@ -14,8 +14,8 @@ struct Gauge {
   std::vector<Vec3> weights;  ///< 1/m
 };
 
-/// Least-squares slope of u_z over z0 in the middle half, of what hangs together with the ends. No rows
-/// where fewer than two heights lie there. (B76)
+/// Least-squares slope of u_z over z0 in the middle half, of what hangs together with the ends. No
+/// rows where fewer than two heights lie there. (B76)
 Gauge axial_gauge(const Assembly& assembly);
 
 /// Least-squares widening across the axis: of the skin at mid-height (middle 40 %); of a disc on

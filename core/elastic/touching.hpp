@@ -1,5 +1,5 @@
-// Surfaces that touch without a bond: they press from the first step on, so that the elastic probe must see
-// them too.
+// Surfaces that touch without a bond: they press from the first step on, so that the elastic probe
+// must see them too.
 #pragma once
 #include <algorithm>
 #include <numbers>

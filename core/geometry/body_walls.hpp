@@ -20,8 +20,9 @@ struct BodyWalls {
   double grown = 0;  ///< m, largest move of a wall beyond its nominal place
 };
 
-/// Walls of a body around the origin, moved out where a centre lies outside. A round mantle becomes a prism
-/// of 360 sides with the section of the circle. plane: those walls that cross the x-z plane at right angles.
+/// Walls of a body around the origin, moved out where a centre lies outside. A round mantle becomes
+/// a prism of 360 sides with the section of the circle. plane: those walls that cross the x-z plane
+/// at right angles.
 /// @param axis  'z', or 'y' for a cylinder or disc that lies
 /// @throws BadInput: a size that is not above zero, an axis that is neither
 BodyWalls walls_of(const Body& body, Space space, char axis, std::span<const Vec3> centres);

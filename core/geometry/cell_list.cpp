@@ -8,8 +8,8 @@
 namespace breccia {
 namespace {
 
-/// Rows sorted by cell: cell c holds rows order[first[c]] ... order[first[c + 1] - 1], with a copy of what
-/// the distance test reads, in that order.
+/// Rows sorted by cell: cell c holds rows order[first[c]] ... order[first[c + 1] - 1], with a copy
+/// of what the distance test reads, in that order.
 struct Cells {
   std::array<std::int64_t, 3> count{};
   std::vector<std::uint32_t> first;
@@ -73,8 +73,8 @@ std::vector<RowPair> near_pairs(Strided<const Vec3> position, std::span<const do
   const Cells cells = sort_into_cells(position, radius, std::max(reach, 1e-300));
   const auto [nx, ny, nz] = cells.count;
 
-  // the rows before this one in its own cell, and the half of the neighbouring cells that come before: each
-  // pair once
+  // the rows before this one in its own cell, and the half of the neighbouring cells that come
+  // before: each pair once
   std::vector<std::vector<RowPair>> found(static_cast<std::size_t>(std::max(threads, 1)));
   const int ranges = position.size() < 512 ? 1 : std::max(threads, 1);
   const auto layers = static_cast<std::size_t>(ny * nz);
@@ -98,7 +98,8 @@ std::vector<RowPair> near_pairs(Strided<const Vec3> position, std::span<const do
       for (std::int64_t cx = 0; cx < nx; ++cx) {
         const auto c = static_cast<std::size_t>((cz * ny + cy) * nx + cx);
         for (std::uint32_t i = cells.first[c]; i < cells.first[c + 1]; ++i) {
-          // cells of a row along x are neighbours in memory: one run of spheres for each of the rows before
+          // cells of a row along x are neighbours in memory: one run of spheres for each of the
+          // rows before
           const std::int64_t left = std::max<std::int64_t>(cx - 1, 0),
                              right = std::min<std::int64_t>(cx + 1, nx - 1);
           for (std::int64_t dz = -1; dz <= 0; ++dz)

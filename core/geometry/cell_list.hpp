@@ -13,8 +13,8 @@ struct RowPair {
   constexpr bool operator==(const RowPair&) const = default;
 };
 
-/// All pairs with |x_b - x_a| <= (1 + relative)(r_a + r_b) + absolute, in an order that depends on positions
-/// only.
+/// All pairs with |x_b - x_a| <= (1 + relative)(r_a + r_b) + absolute, in an order that depends on
+/// positions only.
 /// @param relative  1, above -1
 /// @param absolute  m
 std::vector<RowPair> near_pairs(Strided<const Vec3> position, std::span<const double> radius, double relative,

@@ -1,4 +1,5 @@
-// Order of particles along a space-filling curve: neighbours in space lie near each other in memory.
+// Order of particles along a space-filling curve: neighbours in space lie near each other in
+// memory.
 #pragma once
 #include <span>
 #include <vector>

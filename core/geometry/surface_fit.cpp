@@ -84,8 +84,8 @@ struct Fitter {
     return seen;
   }
 
-  /// Two faces opposite each other, along one coordinate. @returns the middle of both medians; the offset
-  /// is half of their difference
+  /// Two faces opposite each other, along one coordinate. @returns the middle of both medians; the
+  /// offset is half of their difference
   SurfaceGap faces(double Vec3::*along, double Vec3::*u, double width_u, double Vec3::*v, double width_v,
                    double outside, bool round_end, double& offset) const {
     SurfaceGap side[2];
@@ -101,8 +101,8 @@ struct Fitter {
     return mean_of(side[0], side[1]);
   }
 
-  /// A circle about the axis, unrolled, as long as the body or a line. The middle is moved until the gaps
-  /// are the same all around.
+  /// A circle about the axis, unrolled, as long as the body or a line. The middle is moved until
+  /// the gaps are the same all around.
   SurfaceGap round(double Vec3::*y, double Vec3::*along, double length, Vec3& offset) const {
     const double nominal = 0.5 * body.diameter;
     double at_x = 0.0, at_y = 0.0;  // m, of the middle
@@ -137,7 +137,8 @@ struct Fitter {
 }  // namespace
 
 Fit judge(const SurfaceGap& gap) {
-  // a surface that was cut from a block reaches beyond its nominal place here, and stays behind it there
+  // a surface that was cut from a block reaches beyond its nominal place here, and stays behind it
+  // there
   const double roughness = std::isfinite(gap.roughness) ? gap.roughness : 0.0;
   if (!(gap.median <= 0.3) || gap.median < -0.4 - 0.75 * roughness) return Fit::wrong;
   return gap.median > 0.15 || gap.median < -0.25 ? Fit::doubtful : Fit::good;

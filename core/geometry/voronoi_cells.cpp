@@ -14,8 +14,8 @@
 namespace breccia {
 namespace {
 
-/// Faces below this fraction of the mean radius squared are round-off of voro++ (its tolerance is 1e-11), not
-/// faces: cells of lattices meet in edges and points.
+/// Faces below this fraction of the mean radius squared are round-off of voro++ (its tolerance is
+/// 1e-11), not faces: cells of lattices meet in edges and points.
 constexpr double no_face = 1e-9;
 
 /// Particles and walls in units of the mean radius: the tolerances of voro++ are absolute.

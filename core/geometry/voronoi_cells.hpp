@@ -1,5 +1,5 @@
-// The space of a body shared out among its particles: radical Voronoi cells (a point belongs to the particle
-// with the smallest |x - x_i|^2 - r_i^2), cut by the walls of the nominal body.
+// The space of a body shared out among its particles: radical Voronoi cells (a point belongs to the
+// particle with the smallest |x - x_i|^2 - r_i^2), cut by the walls of the nominal body.
 #pragma once
 #include <span>
 #include <vector>
@@ -29,11 +29,11 @@ struct VoronoiCells {
   double grown = 0;  ///< m, by which a wall was moved out to hold a centre that lies outside; 0 as a rule
 };
 
-/// Cells of all particles, which fill the body without gap or overlap: sum of volumes = nominal volume.
-/// A round mantle is a prism of 360 sides with the section of the circle: flat walls are the same for all
-/// cells, so that both ends of a pair see one face. Spheres that stick out of a wall are cut by it; a wall
-/// that a centre lies outside of is moved out to that centre.
-/// plane: cells of discs in the x-z plane; areas are lengths times 1 m, volumes areas times 1 m.
+/// Cells of all particles, which fill the body without gap or overlap: sum of volumes = nominal
+/// volume. A round mantle is a prism of 360 sides with the section of the circle: flat walls are
+/// the same for all cells, so that both ends of a pair see one face. Spheres that stick out of a
+/// wall are cut by it; a wall that a centre lies outside of is moved out to that centre. plane:
+/// cells of discs in the x-z plane; areas are lengths times 1 m, volumes areas times 1 m.
 /// @param body  middle at the origin
 /// @param axis  'z', or 'y' for a cylinder or disc that lies
 /// @throws BadInput: sizes or positions that make no body, two particles with one centre

@@ -36,7 +36,8 @@ ImpactConstants wall_constants(const ImpactScene& scene, std::size_t i, std::siz
 /// kg
 double mass_of(const ImpactScene& scene, const ImpactParticle& particle);
 
-/// Slopes of the normal and tangential force at an overlap, N/m, and the dashpots beside them, N s/m.
+/// Slopes of the normal and tangential force at an overlap, N/m, and the dashpots beside them, N
+/// s/m.
 struct ContactSlopes {
   double normal = 0, tangential = 0, damping = 0, tangential_damping = 0;
 };

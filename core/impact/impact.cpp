@@ -37,8 +37,8 @@ struct ImpactWorld {
   double time() const { return static_cast<double>(step) * dt; }
 };
 
-/// How one end or both ends of a contact take part: their rows, and the reduced moment of inertia for
-/// rolling.
+/// How one end or both ends of a contact take part: their rows, and the reduced moment of inertia
+/// for rolling.
 struct Ends {
   Row lo, hi;
   bool wall;
@@ -274,8 +274,8 @@ void integrate(ImpactWorld& w) {
   integrate_free({p.position, p.velocity, p.spin, p.force, p.torque, p.mass, p.radius}, 0, p.size, w.dt, {});
 }
 
-/// A scene at its start: velocities are set back half a step, through which gravity alone has acted.
-/// (B40)
+/// A scene at its start: velocities are set back half a step, through which gravity alone has
+/// acted. (B40)
 ImpactWorld make_world(const ImpactScene& scene, ImpactResult& result) {
   ImpactWorld w{scene, result.particles};
   w.dt = result.time_step;

@@ -40,7 +40,8 @@ struct ImpactWall {
   std::size_t material = 0;
 };
 
-/// Friction, restitution and rolling friction of two different materials are their arithmetic means.
+/// Friction, restitution and rolling friction of two different materials are their arithmetic
+/// means.
 struct ImpactScene {
   std::vector<ImpactMaterial> materials;
   std::vector<ImpactParticle> particles;  ///< that of row k has the global id k + 1
@@ -87,8 +88,8 @@ struct ImpactResult {
   bool interrupted = false;
 };
 
-/// A scene that cannot be run: the key that is wrong, as a case calls it ("particle.position"), and of a list
-/// the entry, from 0.
+/// A scene that cannot be run: the key that is wrong, as a case calls it ("particle.position"), and
+/// of a list the entry, from 0.
 struct BadScene : BadInput {
   BadScene(std::string of, std::size_t in, const std::string& text)
       : BadInput(text), key(std::move(of)), entry(in) {}
@@ -110,8 +111,8 @@ double impact_steps(const ImpactScene& scene, double critical_step);
 
 /// Runs a scene from start to end. `result` holds what there is when it throws.
 /// @param interrupted  asked now and then; true ends the run
-/// @throws BadInput as above; SimulationBroke: not a number, an overlap beyond half a radius, more or deeper
-/// contacts than the step allows
+/// @throws BadInput as above; SimulationBroke: not a number, an overlap beyond half a radius, more
+///         or deeper contacts than the step allows
 void run_impact(const ImpactScene& scene, ImpactResult& result,
                 const std::function<bool()>& interrupted = {});
 

@@ -4,8 +4,8 @@
 
 namespace breccia {
 
-/// The mean over the steps since the row before. Field names are the columns of curve-K.csv, with their
-/// units. A quantity that the scene does not track is NaN and is written as an empty field.
+/// The mean over the steps since the row before. Field names are the columns of curve-K.csv, with
+/// their units. A quantity that the scene does not track is NaN and is written as an empty field.
 struct CurveRow {
   static constexpr double untracked = std::numeric_limits<double>::quiet_NaN();
 

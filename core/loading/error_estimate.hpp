@@ -1,5 +1,5 @@
-// How far a peak may be from the one of a slow test in small steps on all packings of its kind, told from the
-// run itself. The factors were measured: data/validation/error-and-stability.md.
+// How far a peak may be from the one of a slow test in small steps on all packings of its kind,
+// told from the run itself. The factors were measured: data/validation/error-and-stability.md.
 #pragma once
 #include <cstdint>
 #include <optional>

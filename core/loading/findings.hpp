@@ -1,4 +1,5 @@
-// What a run and a series of runs came to. Field names are the keys of summary.json, with their units.
+// What a run and a series of runs came to. Field names are the keys of summary.json, with their
+// units.
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -1,4 +1,5 @@
-// What reads a test: gauges on the specimen and the platens, from where everything stood when loading began.
+// What reads a test: gauges on the specimen and the platens, from where everything stood when
+// loading began.
 #pragma once
 
 #include "core/elastic/gauges.hpp"

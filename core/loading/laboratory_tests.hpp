@@ -1,6 +1,7 @@
-// The laboratory tests, a row each: which specimens a test takes, what it holds and presses, whether it
-// goes in cycles, and what its curve can tell. A new test is one row here, a protocol (core/loading) where
-// its loading is none of those that there are, a driver of one line, a case and a picture.
+// The laboratory tests, a row each: which specimens a test takes, what it holds and presses,
+// whether it goes in cycles, and what its curve can tell. A new test is one row here, a protocol
+// (core/loading) where its loading is none of those that there are, a driver of one line, a case
+// and a picture.
 #pragma once
 #include <array>
 #include <string_view>

@@ -141,8 +141,8 @@ bool is_slow(const Run& run) {
 }
 
 /// Stage 1: the pressure rises until the specimen rests under it. (B67)
-/// @returns false when interrupted, or when it does not come to rest: a stage that has not cannot be followed
-/// by the next
+/// @returns false when interrupted, or when it does not come to rest: a stage that has not cannot
+///          be followed by the next
 bool press_hydrostatically(Run& run) {
   World& w = run.w;
   const double pressure = run.test.confinement, crossing = crossing_time(w, run.assembly);
@@ -164,10 +164,10 @@ bool press_hydrostatically(Run& run) {
     row.axial_stress_Pa = stress;
     const double since = w.time - start;
     tell(run, 1, std::min(1.0, since / (2.0 * rise)), row);
-    // the dashpot takes up what is missing of the pressure, so that half a per cent of a large one leaves the
-    // platens nearly as fast as the test's (concrete at 100 MPa: 0.06 m/s); stopped dead they would send a wave
-    // into the specimen, and the deviator would begin below zero
-    // what has come loose flies or rattles on, and has no say in whether the specimen rests
+    // the dashpot takes up what is missing of the pressure, so that half a per cent of a large one
+    // leaves the platens nearly as fast as the test's (concrete at 100 MPa: 0.06 m/s); stopped dead
+    // they would send a wave into the specimen, and the deviator would begin below zero what has
+    // come loose flies or rattles on, and has no say in whether the specimen rests
     const auto rests = [&](double kinetic) { return kinetic < 1e-4 * row.stored_J; };
     if (since > rise && std::abs(stress - pressure) < 0.005 * pressure && is_slow(run) &&
         (rests(row.kinetic_J) || rests(kinetic_energy_of_bonded(w)))) {
@@ -226,10 +226,10 @@ bool has_dropped(Run& run, const CurveRow& row) {
          can_be_strength(peak, run.test.confinement, run.result.record.mismatch);
 }
 
-/// A lid that moves steadily, because the band below it dilates, leans on its dashpot: the stress is off by
-/// what the dashpot takes up (at 0.1 m/s half of 1 MPa). So the pressure that drives it is raised by what has
-/// been missing, over half a crossing; with the lid's mass m and dashpot c that is stable beyond m/c, which is
-/// 0.3 crossings, however soft the band (Routh).
+/// A lid that moves steadily, because the band below it dilates, leans on its dashpot: the stress
+/// is off by what the dashpot takes up (at 0.1 m/s half of 1 MPa). So the pressure that drives it
+/// is raised by what has been missing, over half a crossing; with the lid's mass m and dashpot c
+/// that is stable beyond m/c, which is 0.3 crossings, however soft the band (Routh).
 void hold_normal_stress(World& w, double wanted, double crossing) {
   Platens& p = w.platens;
   // (B101)
@@ -247,8 +247,8 @@ void set_speed(World& w, Loading loading, double speed) {
   w.platens.velocity[1].z = -inward;
 }
 
-/// The instruments of a stage that is recorded: set to zero, and a first picture taken, unless a checkpoint
-/// was made in it.
+/// The instruments of a stage that is recorded: set to zero, and a first picture taken, unless a
+/// checkpoint was made in it.
 Instruments begin_or_go_on(Run& run, Stage stage) {
   const bool resumed = run.state.stage == stage;
   const Instruments in =
@@ -299,8 +299,8 @@ void load(Run& run) {
   }
 }
 
-/// The hydrostatic stage as a test of its own: the pressure rises evenly, at the rate at which an elastic
-/// specimen between platens of the given speed would take it up. (B68)
+/// The hydrostatic stage as a test of its own: the pressure rises evenly, at the rate at which an
+/// elastic specimen between platens of the given speed would take it up. (B68)
 void press_evenly(Run& run) {
   World& w = run.w;
   const LoadTest& test = run.test;

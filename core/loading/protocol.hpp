@@ -1,6 +1,6 @@
-// A laboratory test between two platens: hydrostatic stage where there is confinement, then loading at
-// constant speed and pressure. Compression, tension, direct shear, and the hydrostatic stage alone.
-// docs/model.md, "Laboratory tests".
+// A laboratory test between two platens: hydrostatic stage where there is confinement, then loading
+// at constant speed and pressure. Compression, tension, direct shear, and the hydrostatic stage
+// alone. docs/model.md, "Laboratory tests".
 #pragma once
 #include <functional>
 #include <limits>
@@ -13,8 +13,8 @@
 
 namespace breccia {
 
-/// compression: platens towards each other. tension: apart. shear: the halves of a shear box along x, under
-/// `confinement` on its lid. hydrostatic: pressure alone, up to `confinement`.
+/// compression: platens towards each other. tension: apart. shear: the halves of a shear box along
+/// x, under `confinement` on its lid. hydrostatic: pressure alone, up to `confinement`.
 enum class Loading { compression, tension, shear, hydrostatic };
 
 struct LoadTest {
@@ -62,8 +62,8 @@ struct LoadPath {
 
 enum class Stage : std::uint64_t { not_begun, pressing, loading };
 
-/// Where a test stands, between two rows of its curve: with the world and the result, all that it needs to go
-/// on.
+/// Where a test stands, between two rows of its curve: with the world and the result, all that it
+/// needs to go on.
 struct LoadState {
   Stage stage = Stage::not_begun;
   double stage_start = 0;  ///< s
@@ -78,7 +78,8 @@ struct LoadState {
   StabilityChecks checks;
 };
 
-/// What a program does between steps: none of it changes the state, but for columns made for output.
+/// What a program does between steps: none of it changes the state, but for columns made for
+/// output.
 struct LoadHooks {
   std::function<bool()> interrupted;  ///< true ends the run with what there is
   /// about ten times a second at most: stage (1, 2), fraction of it done, and the present row

@@ -1,5 +1,6 @@
-// The rows of a curve: sums over steps, turned into means when a row is full. Rows are merged in pairs when
-// they become many, so that a run of any length has between half of `capacity` and `capacity` rows.
+// The rows of a curve: sums over steps, turned into means when a row is full. Rows are merged in
+// pairs when they become many, so that a run of any length has between half of `capacity` and
+// `capacity` rows.
 #pragma once
 #include <vector>
 

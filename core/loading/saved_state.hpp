@@ -1,6 +1,7 @@
-// All that a run must remember beside its tables to go on as if it had never stopped: one list, which the
-// writer and the reader of checkpoints walk alike, so that neither can forget what the other keeps. What is
-// made anew from the case (laws, masses, plans) and what the next step works out for itself is not in it.
+// All that a run must remember beside its tables to go on as if it had never stopped: one list,
+// which the writer and the reader of checkpoints walk alike, so that neither can forget what the
+// other keeps. What is made anew from the case (laws, masses, plans) and what the next step works
+// out for itself is not in it.
 #pragma once
 #include "core/loading/protocol.hpp"
 #include "core/world/world.hpp"
@@ -56,7 +57,8 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("ledger_worst_loss", w.ledger.worst_loss);
 }
 
-/// The same for the test that a world is in: where it stands, what it has recorded, what its guards remember.
+/// The same for the test that a world is in: where it stands, what it has recorded, what its guards
+/// remember.
 template <class S, class R, class Visit>
 void for_each_number_of_test(S& state, R& result, Visit&& visit) {
   visit("stage", state.stage);

@@ -36,8 +36,8 @@ std::optional<Link> busiest_bond(const World& w, Row row) {
   return found;
 }
 
-/// Contacts that press on a particle now, taken alone with its neighbours fixed: dt^2 k/(2 m), 1 where they
-/// alone reach the limit of two such particles against each other.
+/// Contacts that press on a particle now, taken alone with its neighbours fixed: dt^2 k/(2 m), 1
+/// where they alone reach the limit of two such particles against each other.
 double demand_of_contacts(const World& w, Row row) {
   const ContactTable& c = w.contacts;
   double stiffness = 0.0;
@@ -82,8 +82,8 @@ std::string advice(const World& w, Row row) {
   stop(w, what, row, advice(w, row));
 }
 
-/// So far from the origin places are rounded to more than a step moves them, while velocities are not: shear
-/// forces, which are summed from velocities, then grow without a motion.
+/// So far from the origin places are rounded to more than a step moves them, while velocities are
+/// not: shear forces, which are summed from velocities, then grow without a motion.
 std::optional<std::string> advice_far_away(const StabilityChecks& g) {
   if (g.farthest < 1e5 * g.size) return std::nullopt;
   return fmt::format(
@@ -147,8 +147,8 @@ double energy_of_layers(const Platens& platens) {
   return 0.5 * twice;
 }
 
-/// J, of platens and pressure since the last look. The pressure on a particle hardly changes from one look to
-/// the next, whatever the particle does meanwhile.
+/// J, of platens and pressure since the last look. The pressure on a particle hardly changes from
+/// one look to the next, whatever the particle does meanwhile.
 double work_since(StabilityChecks& g, const World& w) {
   double work = w.platens.work - g.platen_work;
   g.platen_work = w.platens.work;
@@ -168,8 +168,8 @@ void check_energy(StabilityChecks& g, const World& w, double kinetic, double sto
   const double own = std::max(0.0, kinetic - energy_of_layers(w.platens));
   const double bound = allowed_excess(w) * (g.accounted + 0.01 * g.max_energy) + g.noise;  // (B58)
   double there = own + stored;
-  // with the places of the step whose forces the bonds remember: where places have gone on since, a bond that
-  // yields seems to hold more than it does
+  // with the places of the step whose forces the bonds remember: where places have gone on since, a
+  // bond that yields seems to hold more than it does
   if (there > bound) there = own + stored_energy(w, w.dt);
   if (there > bound) {
     const Row row = most_energetic(w);
@@ -213,8 +213,8 @@ void check_balance(const World& w) {
        row, advice(w, row));
 }
 
-/// A bond's shear force is carried along by the turn of its normal from step to step, which a turn beyond a
-/// right angle leaves without a meaning.
+/// A bond's shear force is carried along by the turn of its normal from step to step, which a turn
+/// beyond a right angle leaves without a meaning.
 void check_turns(const World& w) {
   const ParticleTable& p = w.particles;
   const BondTable& b = w.bonds;

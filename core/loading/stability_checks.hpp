@@ -1,5 +1,6 @@
-// What stops a run that no longer is one: a number that is lost, energy from nowhere, a bond that turns too
-// far in a step, a particle that has left. Looked at when a row of the curve is closed: a step costs nothing.
+// What stops a run that no longer is one: a number that is lost, energy from nowhere, a bond that
+// turns too far in a step, a particle that has left. Looked at when a row of the curve is closed: a
+// step costs nothing.
 #pragma once
 #include <vector>
 
@@ -46,9 +47,10 @@ double fastest_wave(const World& world);
 /// a blow-up a few steps more.
 double allowed_excess(const World& world);
 
-/// Looks at the world after a step. The energy check is a balance whose every loss is allowed: kinetic and
-/// stored energy may fall by any amount (a violent failure turns stored energy into kinetic, and both into
-/// loss) but rise only by the work of platens and pressure. So it needs no account of what was dissipated.
+/// Looks at the world after a step. The energy check is a balance whose every loss is allowed:
+/// kinetic and stored energy may fall by any amount (a violent failure turns stored energy into
+/// kinetic, and both into loss) but rise only by the work of platens and pressure. So it needs no
+/// account of what was dissipated.
 /// @param kinetic, stored  J, of all particles and bonds
 /// @throws SimulationBroke with time, step, particle, bond, likely cause and what to change
 void check(StabilityChecks& checks, const World& world, double kinetic, double stored);

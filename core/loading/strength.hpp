@@ -16,29 +16,32 @@ struct CurveFindings {
   std::size_t peak_row = 0;
   double peak_stress = 0;    ///< Pa, total
   double peak_deviator = 0;  ///< Pa
-  /// (B81): the deviator fell after its largest value: by more than 1 %, or, where that lies in the last
-  /// fiftieth of the curve, 5 %. A curve that still rises falls by 1 % now and then, when a few bonds break at once. And
-  /// the largest value is a strength, not a swing, and fell by more than the noise.
+  /// (B81): the deviator fell after its largest value: by more than 1 %, or, where that lies in the
+  /// last fiftieth of the curve, 5 %. A curve that still rises falls by 1 % now and then, when a
+  /// few bonds break at once. And the largest value is a strength, not a swing, and fell by more
+  /// than the noise.
   bool peak_reached = false;
   std::string
       doubt;  ///< why the largest value is no strength; empty: it may be one, or the curve still rises
   double strain_at_peak = 0;
   std::optional<double> young_modulus, young_modulus_50, poisson_ratio;
   std::optional<double> crack_initiation_stress, crack_damage_stress;  ///< Pa
-  double kinetic_ratio = 0;    ///< largest kinetic over stored, from half the peak to the peak (before, the
-                               ///< specimen's uniform motion alone outweighs the little that is stored)
+  /// Largest kinetic over stored, from half the peak to the peak (before, the specimen's uniform
+  /// motion alone outweighs the little that is stored).
+  double kinetic_ratio = 0;
   double platen_mismatch = 0;  ///< largest |top - bottom| over the peak deviator, up to the peak
 };
 
-/// Pa: a deviator below is noise. Platens that differ show waves on their way through the specimen, of which
-/// three times the mean difference is counted; and where a stage of pressure came before, the zero of the
-/// deviator is known to about a hundredth of the pressure.
+/// Pa: a deviator below is noise. Platens that differ show waves on their way through the specimen,
+/// of which three times the mean difference is counted; and where a stage of pressure came before,
+/// the zero of the deviator is known to about a hundredth of the pressure.
 /// @param confinement  Pa, of the stage before, or the normal stress on a shear box
 /// @param mismatch     Pa, between the platens, one per row
 double noise_of_deviator(double confinement, std::span<const double> mismatch);
 
-/// Whether a deviator can be a strength. It is above the noise, and above a twentieth of the confinement: the
-/// friction angle of a material that gives way there is 1.4 degrees, less than any solid has.
+/// Whether a deviator can be a strength. It is above the noise, and above a twentieth of the
+/// confinement: the friction angle of a material that gives way there is 1.4 degrees, less than any
+/// solid has.
 bool can_be_strength(double deviator, double confinement, std::span<const double> mismatch);
 
 /// @param mismatch     Pa, one per row
@@ -62,14 +65,14 @@ std::optional<double> bulk_modulus(std::span<const CurveRow> rows);
 std::optional<MohrCoulomb> fit_shear_line(std::span<const double> normal_stress,
                                           std::span<const double> strength);
 
-/// Straight line sigma_1 = q + N sigma_3 through the peaks: sin phi = (N - 1)/(N + 1), c = q/(2 sqrt N).
-/// (S4.37)
+/// Straight line sigma_1 = q + N sigma_3 through the peaks: sin phi = (N - 1)/(N + 1), c = q/(2
+/// sqrt N). (S4.37)
 /// @returns nothing for fewer than two different confinements
 std::optional<MohrCoulomb> fit_mohr_coulomb(std::span<const double> confinement,
                                             std::span<const double> peak);
 
-/// Why a line through the peaks says nothing about a material: cohesion or friction angle negative. Empty when
-/// it may.
+/// Why a line through the peaks says nothing about a material: cohesion or friction angle negative.
+/// Empty when it may.
 std::string doubt_about(const MohrCoulomb& line);
 
 }  // namespace breccia

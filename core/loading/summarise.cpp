@@ -54,8 +54,8 @@ void warn_of_pressure(RunSummary& run) {
                   asked * 1e-6, held * 1e-6));
 }
 
-/// alpha gives the specimen the material's modulus. Under pressure bonds may have yielded before, which
-/// makes it softer; nothing makes it stiffer.
+/// alpha gives the specimen the material's modulus. Under pressure bonds may have yielded before,
+/// which makes it softer; nothing makes it stiffer.
 void warn_of_modulus(const Material& material, RunSummary& run) {
   if (material.own.contains("normal_stiffness")) return;  // a law with a stiffness of its own has no alpha
   const double asked = material.young_modulus;
@@ -69,7 +69,8 @@ void warn_of_modulus(const Material& material, RunSummary& run) {
                   asked * 1e-9));
 }
 
-/// Moduli are those of the first loading: a way up to the peak that was unloaded is no straight line.
+/// Moduli are those of the first loading: a way up to the peak that was unloaded is no straight
+/// line.
 void read_moduli_before(double unloaded, std::span<const CurveRow> rows, std::span<const double> mismatch,
                         CurveFindings& f) {
   std::size_t count = 0;
@@ -80,8 +81,8 @@ void read_moduli_before(double unloaded, std::span<const CurveRow> rows, std::sp
   f.young_modulus_50 = {};  // half the peak may lie beyond that loading
 }
 
-/// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the lid's
-/// pressure.
+/// The curve of a shear box has its strength in the shear stress itself, not in what exceeds the
+/// lid's pressure.
 CurveFindings findings(const LaboratoryTest& test, const LoadTest& load, const LoadResult& result) {
   std::vector<CurveRow> rows = result.record.rows;
   if (test.loading == Loading::shear)
@@ -110,8 +111,8 @@ void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunS
   run.first_cracks = 2 * central >= first ? "central" : "at the strips";
 }
 
-/// Pa, mean over the rows around the peak whose stress is within 5 % of it: one row alone reads the waves that
-/// each broken bond sends out.
+/// Pa, mean over the rows around the peak whose stress is within 5 % of it: one row alone reads the
+/// waves that each broken bond sends out.
 double held_around_peak(std::span<const CurveRow> rows, std::size_t peak) {
   const auto is_near = [&](std::size_t k) {
     return rows[k].axial_stress_Pa > 0.95 * rows[peak].axial_stress_Pa;
@@ -124,8 +125,8 @@ double held_around_peak(std::span<const CurveRow> rows, std::size_t peak) {
   return sum / static_cast<double>(last - first + 1);
 }
 
-/// A servo that lags holds another stress than was asked for: of a shear box that dilates quickly, the normal
-/// stress; of a hydrostatic test, the axial one.
+/// A servo that lags holds another stress than was asked for: of a shear box that dilates quickly,
+/// the normal stress; of a hydrostatic test, the axial one.
 void warn_if_not_held(const LaboratoryTest& test, const LoadTest& load, const LoadResult& result,
                       const CurveFindings& f, RunSummary& run) {
   const auto& rows = result.record.rows;
@@ -159,7 +160,8 @@ void warn_if_not_held(const LaboratoryTest& test, const LoadTest& load, const Lo
         100 * off, mega * asked));
 }
 
-/// Elastic constants that no solid has are those of a specimen that yields: under its confinement, or at once.
+/// Elastic constants that no solid has are those of a specimen that yields: under its confinement,
+/// or at once.
 void warn_if_not_elastic(const CurveFindings& f, RunSummary& run) {
   constexpr double noise = 0.05;
   if (f.poisson_ratio && !(*f.poisson_ratio > -noise && *f.poisson_ratio < 0.5 + noise))

@@ -11,13 +11,14 @@
 namespace breccia::packing {
 namespace {
 
-// Area fraction where frictionless discs begin to press each other, and d(pressure/k_n)/d(ln r) beyond: first
-// guesses, the search corrects both. Of pressure = z phi/pi (overlap/d) k_n with coordination z = 5.
+// Area fraction where frictionless discs begin to press each other, and d(pressure/k_n)/d(ln r)
+// beyond: first guesses, the search corrects both. Of pressure = z phi/pi (overlap/d) k_n with
+// coordination z = 5.
 constexpr double jammed = 0.84, first_slope = 1.4;
 
 constexpr double pressure_error = 0.002;
-// Resultants against contact forces. Looser while the pressure is far off; ten times less at the end moved
-// porosity by 1e-4 and coordination by 0.03 (10,000 discs, 0.007 k_n).
+// Resultants against contact forces. Looser while the pressure is far off; ten times less at the
+// end moved porosity by 1e-4 and coordination by 0.03 (10,000 discs, 0.007 k_n).
 constexpr double rough = 1e-2, still = 1e-3;
 
 double area_fraction(const Region& region, std::span<const double> r) {
@@ -60,7 +61,8 @@ void inflate(const Region& region, double wanted, std::span<double> r, std::span
     if (!at_rest && balance == still) break;
     if (error < pressure_error && balance == still) return;
     if (error < 0.1) balance = still;
-    // Secant, kept near what an assembly of discs can do: discs that find new places make the pressure jump
+    // Secant, kept near what an assembly of discs can do: discs that find new places make the
+    // pressure jump
     if (before > 0 && now > 0 && by != 0) slope = std::clamp((now - before) / by, 0.7, 3.0);
     before = now;
     by = (wanted - now) / slope;

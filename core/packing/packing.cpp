@@ -58,8 +58,8 @@ void check_fit(const Region& region, double largest_radius, bool sieves) {
            2 * largest_radius, most, sieves ? "leave out the coarsest sieve" : "ask for more spheres");
 }
 
-/// The number of spheres that sieves of given openings need. One that was asked for beside them must be it, but for
-/// a hundredth: sizes are lengths, and are not scaled to fit.
+/// The number of spheres that sieves of given openings need. One that was asked for beside them
+/// must be it, but for a hundredth: sizes are lengths, and are not scaled to fit.
 std::size_t number_by_sieves(const Region& region, const PackRequest& request) {
   const double solid = (1 - request.porosity) * volume(region);
   const auto needed = [&](double finest) {
@@ -112,9 +112,9 @@ double radical_inverse(std::size_t index, std::size_t base) {
   return value;
 }
 
-/// Places the largest first along a randomly shifted Halton sequence: any run of it, so any range of sizes,
-/// is spread evenly over the body. Independent random points would start with more in one end than in the
-/// other by chance, and no relaxation carries that far.
+/// Places the largest first along a randomly shifted Halton sequence: any run of it, so any range
+/// of sizes, is spread evenly over the body. Independent random points would start with more in one
+/// end than in the other by chance, and no relaxation carries that far.
 std::vector<Vec3> insert_evenly(const Region& region, const std::vector<double>& radii, Random& random) {
   const double a = uniform01(random), b = uniform01(random), c = uniform01(random);
   const auto wrap = [](double u) { return u - std::floor(u); };
@@ -158,12 +158,12 @@ Specimen pack_spheres(const Body& body, const PackRequest& request,
     };
   };
 
-  // First push apart, until the density is even; then weigh gaps as overlaps. A pull while spheres still lie
-  // deep in each other, or in a packing looser than random close (0.36, where nothing presses back), would
-  // clump them. The numbers of iterations are where coordination and overlaps stop changing (1,000 to 70,000
-  // spheres). Discs are not pulled: pushed alone they have the coordination of the meshes of the Santasusana
-  // thesis (table 5.1), 5.1 at porosity 0.11 and 5.3 at 0.067 within 1.10 (ri + rj), and pulled they leave
-  // holes as large as a disc.
+  // First push apart, until the density is even; then weigh gaps as overlaps. A pull while spheres
+  // still lie deep in each other, or in a packing looser than random close (0.36, where nothing
+  // presses back), would clump them. The numbers of iterations are where coordination and overlaps
+  // stop changing (1,000 to 70,000 spheres). Discs are not pulled: pushed alone they have the
+  // coordination of the meshes of the Santasusana thesis (table 5.1), 5.1 at porosity 0.11 and 5.3
+  // at 0.067 within 1.10 (ri + rj), and pulled they leave holes as large as a disc.
   constexpr double random_close = 0.36, dense = 0.26;
   const double cohesion =
       region.plane() ? 0.0 : std::clamp((random_close - request.porosity) / (random_close - dense), 0.0, 1.0);

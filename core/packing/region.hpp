@@ -11,8 +11,8 @@
 
 namespace breccia::packing {
 
-/// A body and the space it lies in. In the plane, y = 0, a box is the rectangle of its width along x and its
-/// height along z, a disc the circle of its diameter about y; both are 1 m thick.
+/// A body and the space it lies in. In the plane, y = 0, a box is the rectangle of its width along
+/// x and its height along z, a disc the circle of its diameter about y; both are 1 m thick.
 struct Region {
   Body body;
   Space space = Space::three_d;
@@ -54,8 +54,8 @@ inline double porosity(const Region& region, const Specimen& specimen) {
   return 1 - filled / volume(region);
 }
 
-/// Calls f(distance to the wall, normal into the body) for both ends and the mantle (box: its four sides; in
-/// the plane: two ends and two sides, or the one round wall).
+/// Calls f(distance to the wall, normal into the body) for both ends and the mantle (box: its four
+/// sides; in the plane: two ends and two sides, or the one round wall).
 template <class F>
 void for_each_wall(const Region& region, const Vec3& x, F&& f) {
   const Body& body = region.body;
@@ -99,8 +99,8 @@ inline Vec3 keep_inside(const Region& region, Vec3 x, double margin) {
   return x;
 }
 
-/// Maps the unit cube onto the body less `margin` at every wall, equal volumes to equal volumes. In the plane
-/// x and y of the unit cube count.
+/// Maps the unit cube onto the body less `margin` at every wall, equal volumes to equal volumes. In
+/// the plane x and y of the unit cube count.
 inline Vec3 place(const Region& region, const Vec3& u, double margin) {
   const Vec3 edge = extent(region) - Vec3{2 * margin, 2 * margin, 2 * margin};
   const double rho = edge.x / 2 * std::sqrt(u.x), angle = 2 * std::numbers::pi * u.y;

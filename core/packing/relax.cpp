@@ -10,18 +10,19 @@ namespace {
 
 // The forces. Unit: an overlap of 1 m pushes with 1 "newton", every sphere weighs 1 "kilogram".
 //
-// Labra & Onate, "High-density sphere packing for discrete element method simulations", Commun. Numer. Meth.
-// Engng 25 (2009) 837-849 (GiD's manual names it as the method of its sphere mesher) reduce the sum of
-// squared signed gaps between neighbours: gaps pull as overlaps push. That, and not a state of jamming,
-// explains the wide bell of overlaps and gaps in such meshes. Overlaps alone (cohesion 0) leave at porosity
-// 0.26 a sharp edge of touching pairs: coordination 9.1 within 1.10 (ri + rj), one overlap in a hundred above
-// 0.10 of ri + rj. With the pull: 10.2, and one above 0.13; a real mesh of 13,500 spheres, lent for
-// comparison: 10.65 and 0.16. They change the radii too; here radii follow a given law, and only centres
-// move.
+// Labra & Onate, "High-density sphere packing for discrete element method simulations", Commun.
+// Numer. Meth. Engng 25 (2009) 837-849 (GiD's manual names it as the method of its sphere mesher)
+// reduce the sum of squared signed gaps between neighbours: gaps pull as overlaps push. That, and
+// not a state of jamming, explains the wide bell of overlaps and gaps in such meshes. Overlaps
+// alone (cohesion 0) leave at porosity 0.26 a sharp edge of touching pairs: coordination 9.1 within
+// 1.10 (ri + rj), one overlap in a hundred above 0.10 of ri + rj. With the pull: 10.2, and one
+// above 0.13; a real mesh of 13,500 spheres, lent for comparison: 10.65 and 0.16. They change the
+// radii too; here radii follow a given law, and only centres move.
 
 // The pull fades to nothing at this part of ri + rj; 0.20 leaves too few gaps.
 constexpr double pull_range = 0.25;
-// The same of a wall, of 2 r: it draws from farther, or the pull within would thin the packing near walls.
+// The same of a wall, of 2 r: it draws from farther, or the pull within would thin the packing near
+// walls.
 constexpr double wall_range = 1.0;
 // Overlap, of ri + rj, where the push is twice the linear one; few go farther.
 constexpr double stiff_overlap = 0.2;
@@ -31,8 +32,9 @@ double push(double overlap, double strain) {
   return overlap * (1 + std::min(q * q, 30.0));  // bounded: spheres start deep in each other
 }
 
-/// On both spheres along their line, positive apart. 4 times the reduced radius is 2 r for equal spheres; for
-/// unlike ones it is less than ri + rj, and keeps the small one from sinking into the large one.
+/// On both spheres along their line, positive apart. 4 times the reduced radius is 2 r for equal
+/// spheres; for unlike ones it is less than ri + rj, and keeps the small one from sinking into the
+/// large one.
 double pair_force(double overlap, double ri, double rj, double cohesion) {
   const double sum = ri + rj;
   if (overlap > 0) return push(overlap, overlap * sum / (4 * ri * rj));
@@ -156,7 +158,8 @@ bool relax(const Region& region, const RelaxStage& stage, std::span<const double
   double mean_radius = 0;
   for (const double each : r) mean_radius += each / static_cast<double>(r.size());
 
-  // A linear spring lets a disc in a tight place far into a wall: 0.5 would hold it there, out of balance
+  // A linear spring lets a disc in a tight place far into a wall: 0.5 would hold it there, out of
+  // balance
   const double margin = stage.linear ? 0.1 : 0.5;
   State s{std::vector<Vec3>(x.size()), std::vector<Vec3>(x.size()), {}, {}};
   Fire fire;

@@ -17,8 +17,8 @@ struct RelaxStage {
 };
 
 /// Relaxes the centres x of spheres of radii r. The same bits for any number of threads.
-/// @param progress  called with the fraction of the stage done and the mean overlap over the mean radius; may
-/// be empty
+/// @param progress  called with the fraction of the stage done and the mean overlap over the mean
+///                  radius; may be empty
 /// @return whether the balance was reached; true, too, where nobody touches anybody
 bool relax(const Region& region, const RelaxStage& stage, std::span<const double> r, std::span<Vec3> x,
            const std::function<void(double, double)>& progress);

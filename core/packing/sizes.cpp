@@ -18,8 +18,8 @@ template <class... Args>
 constexpr double tail =
     3;  // log-normal, in standard deviations: beyond it 0.3 % of the spheres, up to x10 in volume
 
-/// Standard normal, cut at +-tail: the value below which a fraction u lies. By bisection: exact to the last
-/// bits, and cheap beside the packing itself.
+/// Standard normal, cut at +-tail: the value below which a fraction u lies. By bisection: exact to
+/// the last bits, and cheap beside the packing itself.
 double normal_quantile(double u) {
   const auto below = [](double t) { return 0.5 * std::erfc(-t / std::numbers::sqrt2); };
   const double p = below(-tail) + u * (below(tail) - below(-tail));
@@ -32,7 +32,8 @@ double normal_quantile(double u) {
 }
 
 /// One class between two sieves. Mass is spread evenly over ln d (a straight line on the usual
-/// semi-logarithmic plot), so the density of the number of spheres over ln d falls as d^-3 (discs: d^-2).
+/// semi-logarithmic plot), so the density of the number of spheres over ln d falls as d^-3 (discs:
+/// d^-2).
 struct SieveClass {
   double finest, coarsest;  // m, diameters
   double number;            // spheres up to a common factor, then their cumulative fraction
@@ -125,8 +126,8 @@ void check_sizes(const SizeDistribution& sizes) {
 }
 
 double spheres_per_volume(const SizeDistribution& sizes, Space space) {
-  // a class of mass m, even over ln d, has m/ln(d1/d0) (6/pi) (d0^-3 - d1^-3)/3 spheres in a cubic metre of
-  // solid, or m/ln(d1/d0) (4/pi) (d0^-2 - d1^-2)/2 discs
+  // a class of mass m, even over ln d, has m/ln(d1/d0) (6/pi) (d0^-3 - d1^-3)/3 spheres in a cubic
+  // metre of solid, or m/ln(d1/d0) (4/pi) (d0^-2 - d1^-2)/2 discs
   double sum = 0;
   classes(sizes, space == Space::two_d ? 2 : 3, sum);
   return 2 / std::numbers::pi * sum;

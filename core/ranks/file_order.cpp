@@ -15,8 +15,8 @@ struct Ids {
   auto operator<=>(const Ids&) const = default;
 };
 
-/// Of each part but the first, the ids that it begins with. Ranks give samples by their rows, some 256 to a
-/// part, so that parts are even to within a few of them.
+/// Of each part but the first, the ids that it begins with. Ranks give samples by their rows, some
+/// 256 to a part, so that parts are even to within a few of them.
 std::vector<Ids> first_ids_of_parts(const Ranks& ranks, std::span<const Ids> mine) {
   const auto parts = static_cast<std::size_t>(ranks.count);
   const std::size_t total = std::max<std::size_t>(1, all_reduce_sum(ranks, mine.size()));
@@ -31,8 +31,8 @@ std::vector<Ids> first_ids_of_parts(const Ranks& ranks, std::span<const Ids> min
   return firsts;
 }
 
-/// Sorts by samples (Blelloch et al., SPAA 1991): each rank has its rows in order already, hands every
-/// other one those of its part, and puts what it gets in order.
+/// Sorts by samples (Blelloch et al., SPAA 1991): each rank has its rows in order already, hands
+/// every other one those of its part, and puts what it gets in order.
 /// @param own  rows of this rank, in the order of ids
 template <class IdsOf>
 FileOrder order_of(const Ranks& ranks, std::vector<Row> own, const IdsOf& ids_of) {

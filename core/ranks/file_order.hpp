@@ -1,6 +1,6 @@
-// The order in which rows leave the program, over all ranks: by global ids, whatever the order in memory,
-// threads and ranks are. Each rank writes one part of that order, and first gets its rows from those that own
-// them.
+// The order in which rows leave the program, over all ranks: by global ids, whatever the order in
+// memory, threads and ranks are. Each rank writes one part of that order, and first gets its rows
+// from those that own them.
 #pragma once
 #include <vector>
 
@@ -25,7 +25,8 @@ FileOrder file_order(const Partition& partition, const ParticleTable& particles)
 FileOrder file_order(const Partition& partition, const BondTable& bonds);
 FileOrder file_order(const Partition& partition, const ContactTable& contacts);
 
-/// The part of a column that this rank writes: value(row) of the rows that lie there. T is copied as it lies.
+/// The part of a column that this rank writes: value(row) of the rows that lie there. T is copied
+/// as it lies.
 template <class T, class Value>
 std::vector<T> in_file_order(const FileOrder& order, const Value& value) {
   std::vector<T> given;

@@ -42,14 +42,16 @@ std::size_t all_reduce_sum(const Ranks& ranks, std::size_t mine);
 /// Returns when every rank has come here.
 void barrier(const Ranks& ranks);
 
-/// Of several ranks: each gives each some elements, every one of `bytes`; they come in the order of ranks.
+/// Of several ranks: each gives each some elements, every one of `bytes`; they come in the order of
+/// ranks.
 /// @param to, from  elements for, and of, each rank
 void all_to_all(std::size_t bytes, const void* mine, std::span<const std::size_t> to, void* all,
                 std::span<const std::size_t> from);
 /// Of several ranks: how many elements each has for this one, where this one has `to` for each.
 std::vector<std::size_t> sizes_for_me(std::span<const std::size_t> to);
 
-/// Elements of each rank, one behind the other, at the root; empty elsewhere. T is copied as it lies.
+/// Elements of each rank, one behind the other, at the root; empty elsewhere. T is copied as it
+/// lies.
 template <class T>
 std::vector<T> gather_elements(const Ranks& ranks, std::span<const T> mine) {
   const std::vector<std::size_t> bytes = sizes_of_all(ranks, mine.size_bytes());
@@ -75,12 +77,13 @@ struct Neighbour {
   std::vector<double> outgoing, incoming;  ///< the numbers of them
 };
 
-/// Of several ranks: fills `send` of each neighbour: what the other side wants to receive of this one.
+/// Of several ranks: fills `send` of each neighbour: what the other side wants to receive of this
+/// one.
 /// @param neighbours  with `receive`, for every rank but this one
 void exchange_send_lists(const Ranks& ranks, std::vector<Neighbour>& neighbours);
 
-/// Sends every `outgoing` and asks for every `incoming`; neither may be touched until the exchange is
-/// finished. One at a time.
+/// Sends every `outgoing` and asks for every `incoming`; neither may be touched until the exchange
+/// is finished. One at a time.
 void begin_exchange(std::vector<Neighbour>& neighbours);
 /// Waits until all of it has gone and come. @returns false when none was begun
 bool finish_exchange();

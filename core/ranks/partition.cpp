@@ -9,7 +9,8 @@ std::size_t rows_of_block(std::size_t rows) {
   return std::clamp<std::size_t>((rows / 2048 + 63) / 64 * 64, 64, 1024);
 }
 
-/// Cuts rows into parts of equal work, at blocks; work: bonds, and a little for the particle itself.
+/// Cuts rows into parts of equal work, at blocks; work: bonds, and a little for the particle
+/// itself.
 std::vector<std::size_t> equal_parts(std::size_t n, const BondTable& bonds, std::size_t block, int count) {
   std::vector<double> work((n + block - 1) / block, 0.0);
   for (std::size_t row = 0; row < n; ++row) work[row / block] += 1.0;

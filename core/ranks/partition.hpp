@@ -1,9 +1,10 @@
-// What a rank owns of a world: a contiguous part of the rows of particles, which lie along a space-filling
-// curve, and the bonds whose lower row is among them. Rows mean the same on every rank.
+// What a rank owns of a world: a contiguous part of the rows of particles, which lie along a
+// space-filling curve, and the bonds whose lower row is among them. Rows mean the same on every
+// rank.
 //
-// Sums over particles, bonds or lists of rows are taken block of rows by block of rows, then over the blocks
-// in their order. Ranks own whole blocks, so that a sum has the same bits for any number of ranks and
-// threads.
+// Sums over particles, bonds or lists of rows are taken block of rows by block of rows, then over
+// the blocks in their order. Ranks own whole blocks, so that a sum has the same bits for any number
+// of ranks and threads.
 #pragma once
 #include <algorithm>
 #include <vector>
@@ -133,8 +134,8 @@ std::vector<T> gather_owned_entries(const Partition& s, std::span<const Row> lis
   return gather_elements(s.ranks, std::span<const T>(mine));
 }
 
-/// Over the owned bonds or contacts of a table, sorted by the lower row of their ends, range by range:
-/// over(first, last).
+/// Over the owned bonds or contacts of a table, sorted by the lower row of their ends, range by
+/// range: over(first, last).
 template <class T, class Table, class Over>
 T sum_pair_ranges(const Partition& s, const Table& t, int threads, std::vector<T>& blocks, const Over& over) {
   const auto first_at = [&](std::size_t row) {

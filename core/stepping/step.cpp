@@ -50,8 +50,8 @@ void sync_broken(World& w) {
       history_to_double(w.single_bonds, broken.bond, broken.bond + 1, w.bonds);
 }
 
-/// Calls pass(first, last) for the bonds of a range: all of them, or of several ranks the runs of whole
-/// blocks that reach, or do not reach, into other ranks' parts.
+/// Calls pass(first, last) for the bonds of a range: all of them, or of several ranks the runs of
+/// whole blocks that reach, or do not reach, into other ranks' parts.
 template <class Pass>
 void for_blocks(const World& w, int range, bool reaching, const Pass& pass) {
   const std::size_t last = w.bond_plan.first(range + 1);

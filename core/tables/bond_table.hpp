@@ -1,6 +1,6 @@
-// The bonds of a scene as a structure of arrays: one record per bond whatever happens to it. `lo` is the end
-// with the lower global id, `hi` the other; rows are sorted by the rows of their ends, and padded to whole
-// batches of a register with bonds that have no stiffness.
+// The bonds of a scene as a structure of arrays: one record per bond whatever happens to it. `lo`
+// is the end with the lower global id, `hi` the other; rows are sorted by the rows of their ends,
+// and padded to whole batches of a register with bonds that have no stiffness.
 #pragma once
 #include <vector>
 

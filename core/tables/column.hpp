@@ -1,5 +1,6 @@
-// A column of a table is declared once, in one line of a COLUMNS macro: type, name, unit, role, feature that
-// needs it, meaning. Storage, results, ParaView output and the printed documentation derive from that line.
+// A column of a table is declared once, in one line of a COLUMNS macro: type, name, unit, role,
+// feature that needs it, meaning. Storage, results, ParaView output and the printed documentation
+// derive from that line.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -12,9 +13,9 @@ namespace breccia {
 using Gid = std::uint64_t;  ///< global id of a particle, as in the specimen's file
 using Row = std::uint32_t;  ///< row of a table on this rank
 
-/// What a column is for. Identity, reference, history and state are saved and sent; derived is worked out for
-/// output; scratch is neither. A ledger column is saved and sent too, but no part of the state: nothing moves
-/// otherwise for it.
+/// What a column is for. Identity, reference, history and state are saved and sent; derived is
+/// worked out for output; scratch is neither. A ledger column is saved and sent too, but no part of
+/// the state: nothing moves otherwise for it.
 enum class Role { identity, reference, history, state, ledger, derived, scratch };
 
 /// The feature of the scene without which a column has no storage.

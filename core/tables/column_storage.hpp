@@ -6,8 +6,9 @@
 
 namespace breccia {
 
-/// Long columns begin at a page of memory: the loop over bonds goes through more than a dozen of them at the
-/// same row, and then crosses lines of the cache, and pages, in all of them at once (data/performance).
+/// Long columns begin at a page of memory: the loop over bonds goes through more than a dozen of
+/// them at the same row, and then crosses lines of the cache, and pages, in all of them at once
+/// (data/performance).
 template <class T>
 struct PageAllocator {
   using value_type = T;

@@ -1,5 +1,5 @@
-// Pairs of particles that were never bonded and lie within the skin of the search: candidates, most of them
-// apart.
+// Pairs of particles that were never bonded and lie within the skin of the search: candidates, most
+// of them apart.
 #pragma once
 #include <vector>
 

@@ -1,6 +1,6 @@
-// Mixed precision: parameters and history of the bonds as floats, which is what the loop then reads and
-// writes. The table of bonds stays what everything else reads; its history is brought up to date where it is
-// looked at (sync in core/world/world.hpp).
+// Mixed precision: parameters and history of the bonds as floats, which is what the loop then reads
+// and writes. The table of bonds stays what everything else reads; its history is brought up to
+// date where it is looked at (sync in core/world/world.hpp).
 #pragma once
 #include "core/tables/bond_table.hpp"
 #include "kernels/loops/bond_pass.hpp"

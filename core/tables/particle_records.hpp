@@ -1,5 +1,5 @@
-// What the loop over bonds fetches of a particle lies together: its motion in one record, its sums in
-// another. An end of a bond then costs three lines of the cache where five columns cost five
+// What the loop over bonds fetches of a particle lies together: its motion in one record, its sums
+// in another. An end of a bond then costs three lines of the cache where five columns cost five
 // (data/performance).
 #pragma once
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace breccia {
 
-/// One quantity of the particles in their records; read and written like a column. Made by its records only.
+/// One quantity of the particles in their records; read and written like a column. Made by its
+/// records only.
 class RecordField {
 public:
   using value_type = Vec3;
@@ -43,7 +44,8 @@ private:
   Strided<Vec3> rows_;
 };
 
-/// Records of motion (position, velocity and, where particles turn, spin) and of sums (force and torque).
+/// Records of motion (position, velocity and, where particles turn, spin) and of sums (force and
+/// torque).
 struct ParticleRecords {
   RecordField position, velocity, spin;
   RecordField force, torque;

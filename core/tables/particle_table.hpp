@@ -1,5 +1,6 @@
-// The particles of a scene as a structure of arrays, two of them of records. Rows [0, free) move freely; rows
-// [free, size) belong to a platen. Within each part rows lie along a space-filling curve.
+// The particles of a scene as a structure of arrays, two of them of records. Rows [0, free) move
+// freely; rows [free, size) belong to a platen. Within each part rows lie along a space-filling
+// curve.
 #pragma once
 #include <vector>
 

@@ -1,5 +1,5 @@
-// Rows of this rank in the order of global ids, whatever the order in memory is. Over several ranks:
-// core/ranks/file_order.hpp
+// Rows of this rank in the order of global ids, whatever the order in memory is. Over several
+// ranks: core/ranks/file_order.hpp
 #pragma once
 #include <vector>
 

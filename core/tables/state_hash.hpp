@@ -1,5 +1,5 @@
-// A fingerprint of the state of a run: equal if and only if (but for one chance in 2^64) every saved bit is
-// equal.
+// A fingerprint of the state of a run: equal if and only if (but for one chance in 2^64) every
+// saved bit is equal.
 #pragma once
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace breccia {
 
-/// 16 hex digits over the identity, history and state columns in the order of their declaration, rows by
-/// global id.
+/// 16 hex digits over the identity, history and state columns in the order of their declaration,
+/// rows by global id.
 std::string state_hash(const ParticleTable& particles, const BondTable& bonds);
 
 }  // namespace breccia

@@ -20,8 +20,8 @@ double kinetic_energy(const World& world);
 double kinetic_energy_of_bonded(const World& world);
 
 /// J, of bonds and contacts.
-/// @param back  s, by which the positions are taken back along the velocities: the world's step gives the
-///              moment of the last forces, and of the history
+/// @param back  s, by which the positions are taken back along the velocities: the world's step
+///              gives the moment of the last forces, and of the history
 double stored_energy(const World& world, double back = 0.0);
 
 }  // namespace breccia

@@ -4,8 +4,8 @@
 
 namespace breccia {
 
-/// Accounts for what platens, pressure and global damping do in this step: called when the forces are complete
-/// and the velocities are not yet kicked.
+/// Accounts for what platens, pressure and global damping do in this step: called when the forces
+/// are complete and the velocities are not yet kicked.
 void account_motion(World& world);
 
 /// At the end of the last step, of all ranks.

@@ -25,7 +25,8 @@ void set_masses(ParticleTable& p, double density, Space space) {
 void set_bond_constants(World& w) {
   const ParticleTable& p = w.particles;
   BondTable& b = w.bonds;
-  // a strength area of its own partitions space as it is; otherwise strength and stiffness share alpha A
+  // a strength area of its own partitions space as it is; otherwise strength and stiffness share
+  // alpha A
   for (double& area : b.area) area *= w.alpha;  // (P21) (B11)
   const std::vector<double> stiffness = bond_stiffness(w.law, p, b);
   for (std::size_t k = 0; k < b.padded; ++k) {

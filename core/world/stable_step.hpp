@@ -1,5 +1,5 @@
-// The step of a world: chosen at the start, looked at again when pairs that may touch are listed anew, and
-// lowered where they ask for it. docs/model.md, "Time step and mass scaling".
+// The step of a world: chosen at the start, looked at again when pairs that may touch are listed
+// anew, and lowered where they ask for it. docs/model.md, "Time step and mass scaling".
 #pragma once
 #include "core/world/world.hpp"
 
@@ -9,9 +9,10 @@ namespace breccia {
 /// @throws BadInput when the safety asked for is beyond 1
 void choose_step(World& world);
 
-/// After the contacts have been listed anew: sets their dashpots, and lowers the step, never raises it, where
-/// it is no longer below the critical one. The step stands while contacts that were not counted before
-/// cannot, by a proven bound, use up the margin that there was; only then is the network looked at again.
+/// After the contacts have been listed anew: sets their dashpots, and lowers the step, never raises
+/// it, where it is no longer below the critical one. The step stands while contacts that were not
+/// counted before cannot, by a proven bound, use up the margin that there was; only then is the
+/// network looked at again.
 void revise_step(World& world);
 
 /// The dashpots of all bonds and contacts for the step in use.

@@ -7,8 +7,8 @@
 namespace breccia {
 namespace {
 
-/// Calls add(lo, hi, unit normal, distance, force on lo) for every bond and every pressed contact of the
-/// first so many; padding has no stiffness, and no force.
+/// Calls add(lo, hi, unit normal, distance, force on lo) for every bond and every pressed contact
+/// of the first so many; padding has no stiffness, and no force.
 template <class Add>
 void for_each_force(const World& w, std::size_t bonds, std::size_t contacts, const Add& add) {
   const ParticleTable& p = w.particles;

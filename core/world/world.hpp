@@ -1,5 +1,5 @@
-// Everything that a run moves: tables, boundary, search, constants. Made from an assembly, advanced by
-// `step`.
+// Everything that a run moves: tables, boundary, search, constants. Made from an assembly, advanced
+// by `step`.
 #pragma once
 #include <memory>
 

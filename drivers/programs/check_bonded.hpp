@@ -1,5 +1,5 @@
-// What a bonded specimen must have before a test is run on it: a way for the load, a lateral surface to be
-// pressed, and areas that no flaw has blown up.
+// What a bonded specimen must have before a test is run on it: a way for the load, a lateral
+// surface to be pressed, and areas that no flaw has blown up.
 #pragma once
 #include <string>
 #include <vector>
@@ -20,14 +20,14 @@ void check_connection(const Connection& connection, const Assembly& assembly, co
 void check_lateral_surface(const Assembly& assembly, bool pressed, const std::string& source,
                            std::vector<std::string>& warnings);
 
-/// Of alpha = "auto": a flaw, a cut or a thread makes a specimen softer than its bonds explain, and alpha
-/// would make up for it with larger areas, which raise every strength.
+/// Of alpha = "auto": a flaw, a cut or a thread makes a specimen softer than its bonds explain, and
+/// alpha would make up for it with larger areas, which raise every strength.
 /// @throws BadInput when alpha is beyond what packings have
 void check_area_factor(const AreaFactor& factor, const Assembly& assembly, const Connection& connection,
                        std::vector<std::string>& warnings);
 
-/// "; 3 spheres hang on nothing", "; bonds fall into 2 pieces of 150 and 150"; empty for one piece and no
-/// loose sphere.
+/// "; 3 spheres hang on nothing", "; bonds fall into 2 pieces of 150 and 150"; empty for one piece
+/// and no loose sphere.
 std::string describe(const Connection& connection);
 
 }  // namespace breccia

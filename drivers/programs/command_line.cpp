@@ -48,8 +48,8 @@ void set_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) sigaction(signal, &action, nullptr);
 }
 
-/// Of several ranks the root speaks. Another one has something to say only when it alone is in trouble: it waits for
-/// the root's word, which ends the job for all.
+/// Of several ranks the root speaks. Another one has something to say only when it alone is in
+/// trouble: it waits for the root's word, which ends the job for all.
 int end_rank(const Ranks& ranks, const std::string& program, std::string_view what, int code) {
   if (ranks.alone()) return end(program, what, code);
   if (!ranks.is_root()) {

@@ -242,7 +242,8 @@ void refuse_changes(const fs::path& file, const std::string& before, const Case&
       file.string(), fmt::join(changed, "; "));
 }
 
-/// @throws BadInput when the case has changed since, naming the keys; when an input, or what has been done, has
+/// @throws BadInput when the case has changed since, naming the keys; when an input, or what has
+///         been done, has
 WorkDone find_work(const CommandLine& line, const Case& c, Progress& progress) {
   WorkDone work;
   if (!line.resume) return work;

@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first line of a file that begins with `key`, less the key, blanks and a colon; empty without one.
+/// The first line of a file that begins with `key`, less the key, blanks and a colon; empty without
+/// one.
 std::string line_of(const fs::path& file, std::string_view key) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {

@@ -25,8 +25,8 @@ struct ReadySpecimen {
   std::vector<std::string> warnings;  ///< of each run of it
 };
 
-/// What a study of the specimen asks: the modulus and Poisson ratio that an elastic probe reads with the
-/// factor in use, and how often the bonds' areas cover a section. One line; empty for a
+/// What a study of the specimen asks: the modulus and Poisson ratio that an elastic probe reads
+/// with the factor in use, and how often the bonds' areas cover a section. One line; empty for a
 /// specimen that is not held at its ends.
 std::string describe_elasticity(const Case& c, const LaboratoryTest& test, const ReadySpecimen& ready,
                                 int threads);

@@ -22,7 +22,8 @@ nlohmann::ordered_json json_of(const Machine& m) {
 
 namespace {
 
-/// A field of a line: text with a comma or a quote in it is quoted (RFC 4180), what is not there is empty.
+/// A field of a line: text with a comma or a quote in it is quoted (RFC 4180), what is not there is
+/// empty.
 std::string field(const nlohmann::ordered_json& value) {
   if (value.is_null()) return {};
   if (!value.is_string()) return value.dump();

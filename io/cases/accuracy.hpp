@@ -1,4 +1,5 @@
-// What `time.accuracy` stands for: recipes whose error was measured (data/validation/error-and-stability.md).
+// What `time.accuracy` stands for: recipes whose error was measured
+// (data/validation/error-and-stability.md).
 #pragma once
 #include <span>
 #include <string_view>

@@ -47,7 +47,8 @@ bool takes_standard(const Key& key, const Layer& layer, const std::string& test)
   return gives_pack(layer);
 }
 
-/// The default that a case takes: its law's, its recipe's, its test's, its dimension's, or everybody's.
+/// The default that a case takes: its law's, its recipe's, its test's, its dimension's, or
+/// everybody's.
 struct Standard {
   std::string_view value, of;  ///< of: whose, where it is not everybody's
 };
@@ -81,8 +82,8 @@ std::vector<std::string> unusual_defaults(const Layer& layer, const Layer& mater
     const Standard standard = defaults.of(key);
     if (standard.of.empty()) continue;
     const std::string value = write_value(key, taken->second.reading);
-    lines.push_back(key.law.empty() ? fmt::format("{} = {} ({}; otherwise {})", key.name, value,
-                                                  standard.of, key.default_text)
+    lines.push_back(key.law.empty() ? fmt::format("{} = {} ({}; otherwise {})", key.name, value, standard.of,
+                                                  key.default_text)
                                     : fmt::format("{} = {} ({})", key.name, value, standard.of));
   }
   return lines;
@@ -278,7 +279,8 @@ struct Checks {
              fmt::format("law {} is one of discs; set specimen.dimensions = 2", quote(name)));
   }
 
-  /// A [[material.at]] that no run uses is a slip of the pen, unless --set has chosen other confinements.
+  /// A [[material.at]] that no run uses is a slip of the pen, unless --set has chosen other
+  /// confinements.
   /// @param used  confinements of the table that runs take their values from
   void confinements(const std::vector<ConfinementLayer>& groups, const std::vector<double>& used) const {
     if (const Key* key = find_key("test.confinement"); !accepts(*key, test) && !groups.empty())

@@ -92,7 +92,8 @@ struct Case {
 /// Reads, checks and resolves a case file.
 /// @param file   the case, TOML
 /// @param sets   `--set` overrides, each "table.key=value"
-/// @param test   name of the program: "ucs", "triaxial", "pack", ... (some keys belong to some tests only)
+/// @param test   name of the program: "ucs", "triaxial", "pack", ... (some keys belong to some
+///         tests only)
 /// @throws BadInput: one line with file, line, key and the nearest valid choice
 Case load_case(const std::filesystem::path& file, const std::vector<std::string>& sets,
                const std::string& test);

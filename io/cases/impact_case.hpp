@@ -1,5 +1,5 @@
-// The case of breccia-impact: free particles, walls, their materials. A kind of its own beside the laboratory
-// tests.
+// The case of breccia-impact: free particles, walls, their materials. A kind of its own beside the
+// laboratory tests.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
-// The keys of an impact case, one declaration each: reading, checks, the resolved case and --help derive from
-// it.
+// The keys of an impact case, one declaration each: reading, checks, the resolved case and --help
+// derive from it.
 #pragma once
 #include <span>
 #include <string>

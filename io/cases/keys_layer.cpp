@@ -22,7 +22,8 @@ bool is_table_name(const std::string& name) {
                      [&](const Key& key) { return key.name.starts_with(name + "."); });
 }
 
-/// Walks the tables of one file. In a preset `shown` drops "material." from the names that a user reads.
+/// Walks the tables of one file. In a preset `shown` drops "material." from the names that a user
+/// reads.
 struct Walker {
   std::string test;
   bool preset = false;
@@ -43,7 +44,8 @@ struct Walker {
     return names;
   }
 
-  /// Suggests the nearest name of the same table, else the same word in another table, else all of the table.
+  /// Suggests the nearest name of the same table, else the same word in another table, else all of
+  /// the table.
   [[noreturn]] void refuse_unknown(const std::string& name, const std::string& place) const {
     const auto suggested = [&](const std::string& other) {
       refuse(place, shown(name), fmt::format("unknown key; did you mean {}?", quote(other)));

@@ -1,4 +1,5 @@
-// A case is laid in layers: preset, case file, --set; what a higher layer gives hides what lies below.
+// A case is laid in layers: preset, case file, --set; what a higher layer gives hides what lies
+// below.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -46,8 +47,8 @@ Source read_preset_source(const TomlNode& root);
 /// Removes every key whose name begins so.
 void erase_below(Layer&, std::string_view prefix);
 
-/// Lays `high` over `low`. A key that excludes another (fracture energy and damage, file and pack) hides that
-/// too.
+/// Lays `high` over `low`. A key that excludes another (fracture energy and damage, file and pack)
+/// hides that too.
 void lay_over(Layer& low, const Layer& high);
 
 /// Equal within one part in a million.

@@ -39,7 +39,8 @@ std::vector<std::string> presets_in(const std::vector<std::filesystem::path>& fo
   return names;
 }
 
-/// Keys of other laws, that a preset may have, leave; what the law has for itself takes its defaults.
+/// Keys of other laws, that a preset may have, leave; what the law has for itself takes its
+/// defaults.
 void fit_to_law(Layer& material) {
   const LawFacts& facts = facts_of(law_of(material));
   std::erase_if(material, [&](const auto& entry) { return is_foreign(entry.first, facts); });

@@ -21,8 +21,8 @@ struct MaterialLayers {
 /// The folder data/ of the source tree, with materials/ that come with breccia.
 std::filesystem::path shipped_data();
 
-/// Reads the preset called `name` from materials/ beside the case, beside its folder, in $BRECCIA_DATA, in
-/// the source tree.
+/// Reads the preset called `name` from materials/ beside the case, beside its folder, in
+/// $BRECCIA_DATA, in the source tree.
 /// @param place  where the name was given
 /// @throws BadInput: unknown name, with those present; or what is wrong in the preset's file
 Source read_preset(const std::string& name, const std::string& place,
@@ -51,8 +51,8 @@ const LawFacts& facts_of(std::string_view law);
 /// The law that a material's keys ask for.
 std::string law_of(const Layer& material);
 
-/// A key in the case for something that its law lacks is refused by name; presets may hold more than a law
-/// uses.
+/// A key in the case for something that its law lacks is refused by name; presets may hold more
+/// than a law uses.
 void refuse_foreign_keys(const Layer& given, const std::string& law);
 
 /// Checks that nothing is missing for the features in use and fills a Material.

@@ -1,4 +1,5 @@
-// The keys of a case in print, made from their declarations: for --help, and docs/case-reference.md.
+// The keys of a case in print, made from their declarations: for --help, and
+// docs/case-reference.md.
 #pragma once
 #include <string>
 #include <string_view>
@@ -14,8 +15,8 @@ struct ConditionalDefault {
   std::string_view value;
 };
 
-/// What a key gets, where the case does not name it, other than its usual default: in 2-D where that
-/// is not what the test has anyway, with a bond law, with a recipe of time.accuracy.
+/// What a key gets, where the case does not name it, other than its usual default: in 2-D where
+/// that is not what the test has anyway, with a bond law, with a recipe of time.accuracy.
 /// @param test  "ucs", ...; a 2-D default that this test never has is left out
 std::vector<ConditionalDefault> conditional_defaults(const Key& key, std::string_view test);
 

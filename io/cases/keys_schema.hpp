@@ -1,5 +1,5 @@
-// One declaration per key of a case: reading, checks, unknown keys, the resolved case and the printed
-// reference all derive from it.
+// One declaration per key of a case: reading, checks, unknown keys, the resolved case and the
+// printed reference all derive from it.
 #pragma once
 #include <cstdint>
 #include <limits>

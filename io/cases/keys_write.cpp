@@ -22,8 +22,9 @@ bool differs(const Key& key, const Layer& at, const Layer& base) {
                                                          write_value(key, there->second.reading));
 }
 
-/// Only what confinements change, so that a reader sees it; what one of them changes stands at each, since values
-/// between two confinements lie between theirs. Zero may be left out: it has the values of the base.
+/// Only what confinements change, so that a reader sees it; what one of them changes stands at
+/// each, since values between two confinements lie between theirs. Zero may be left out: it has the
+/// values of the base.
 void write_at(std::string& text, const std::vector<ConfinementLayer>& groups, const Layer& base) {
   std::vector<const Key*> changed;
   for (const Key& key : all_keys())

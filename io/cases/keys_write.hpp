@@ -10,8 +10,8 @@ namespace breccia {
 /// A case as TOML with every default written out; reads back to the same case.
 /// @param keys  all keys but those of the material
 /// @param base  the material where no confinement is named
-/// @param at    the material for each confinement; only what differs from `base` is written, behind `place`, if
-///              any, as a comment
+/// @param at    the material for each confinement; only what differs from `base` is written, behind
+///              `place`, if any, as a comment
 std::string write_case(const Layer& keys, const Layer& base, const std::vector<ConfinementLayer>& at,
                        const std::string& test);
 

@@ -1,4 +1,5 @@
-// A material whose values stand in a table over the confinement: [[at]] of a preset, [[material.at]] of a case.
+// A material whose values stand in a table over the confinement: [[at]] of a preset,
+// [[material.at]] of a case.
 #pragma once
 #include <string>
 #include <vector>
@@ -15,9 +16,10 @@ struct MaterialAt {
   std::string warning;       ///< empty where the table has an answer
 };
 
-/// The material at a confinement: --set, the case's [[material.at]], [material], the preset's [[at]], the
-/// preset. At a confinement of the table its values hold to the last bit, between two of them straight lines;
-/// values that stand for no confinement are those of zero. Beyond the table its last values hold, with a warning.
+/// The material at a confinement: --set, the case's [[material.at]], [material], the preset's
+/// [[at]], the preset. At a confinement of the table its values hold to the last bit, between two
+/// of them straight lines; values that stand for no confinement are those of zero. Beyond the table
+/// its last values hold, with a warning.
 /// @throws BadInput where one of two neighbours has a key and the other the one that replaces it
 MaterialAt material_at(const MaterialLayers&, double confinement);
 

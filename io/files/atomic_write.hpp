@@ -5,8 +5,8 @@
 
 namespace breccia {
 
-/// Replaces `file` by one with this content. A reader, or a kill at any moment, meets the old file or the new
-/// one.
+/// Replaces `file` by one with this content. A reader, or a kill at any moment, meets the old file
+/// or the new one.
 /// @throws WriteError; the old file is then as it was
 void atomic_write(const std::filesystem::path& file, std::string_view content);
 
@@ -17,7 +17,8 @@ std::filesystem::path name_aside(const std::filesystem::path& file);
 /// @throws WriteError; the file aside is then removed
 void move_into_place(const std::filesystem::path& aside, const std::filesystem::path& file);
 
-/// Waits until the content of a file is on the disk: some file systems notice only then that they are full.
+/// Waits until the content of a file is on the disk: some file systems notice only then that they
+/// are full.
 /// @throws WriteError
 void flush_to_disk(const std::filesystem::path& file);
 

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 constexpr std::array<char, 8> mark{'b', 'r', 'e', 'c', 's', 'e', 'a', 'l'};
 constexpr std::size_t seal_bytes = mark.size() + sizeof(std::uint64_t);
 
-/// Four chains of a multiplicative hash over words of eight bytes, so that a processor works on all at once;
-/// each step is invertible, so that no single changed word goes unseen.
+/// Four chains of a multiplicative hash over words of eight bytes, so that a processor works on all
+/// at once; each step is invertible, so that no single changed word goes unseen.
 class Checksum {
 public:
   /// @param bytes  a multiple of 32, but for the last piece

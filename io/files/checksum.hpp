@@ -1,5 +1,5 @@
-// A seal behind a file: a checksum of all that is before it. Formats that know where they end (HDF5) do not
-// mind.
+// A seal behind a file: a checksum of all that is before it. Formats that know where they end
+// (HDF5) do not mind.
 #pragma once
 #include <cstddef>
 #include <filesystem>

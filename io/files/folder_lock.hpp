@@ -1,6 +1,7 @@
-// One run at a time in a folder of results, and a list of what breccia wrote there: both in DIR/.breccia-files. The
-// run that writes holds a lock on the file, which the system lets go of when the run ends, however it does. The file
-// stays, so that the next run knows which files are not the user's.
+// One run at a time in a folder of results, and a list of what breccia wrote there: both in
+// DIR/.breccia-files. The run that writes holds a lock on the file, which the system lets go of
+// when the run ends, however it does. The file stays, so that the next run knows which files are
+// not the user's.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -31,7 +32,8 @@ private:
 };
 
 /// Locks a folder that is there. On a file system without locks it goes on without one.
-/// @throws BadInput when another run holds the lock; WriteError when the list cannot be opened or made
+/// @throws BadInput when another run holds the lock; WriteError when the list cannot be opened or
+///         made
 FolderLock lock_folder(const std::filesystem::path& folder);
 
 /// The same where breccia has written before; elsewhere no lock, and nothing is made.

@@ -26,7 +26,8 @@ bool matches(const std::string& name, const std::string& pattern, std::size_t st
   return name.find_first_not_of("0123456789", head.size()) >= name.size() - tail.size();
 }
 
-/// The files of a folder that a name of the list stands for, and what a run that was killed left beside them.
+/// The files of a folder that a name of the list stands for, and what a run that was killed left
+/// beside them.
 std::vector<fs::path> files_of(const fs::path& folder, const std::string& listed) {
   std::vector<fs::path> files;
   const fs::path path(listed);
@@ -73,8 +74,8 @@ void check_in_the_way(const fs::path& folder, const std::vector<std::string>& ou
     }
 }
 
-/// The list. A folder of a version that kept none is known by its resolved case: what will be written again is
-/// breccia's there.
+/// The list. A folder of a version that kept none is known by its resolved case: what will be
+/// written again is breccia's there.
 std::vector<std::string> listed_names(const fs::path& folder, const FolderLock& held, const FolderUse& use) {
   if (std::vector<std::string> names = held.names(); !names.empty()) return names;
   const fs::path resolved = folder / "case.toml";

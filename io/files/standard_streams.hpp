@@ -4,8 +4,9 @@
 
 namespace breccia {
 
-/// A program may be started with some of its three streams closed. The next file that it opened would take the
-/// number of one, and be written into by every message: the empty device takes these numbers first.
+/// A program may be started with some of its three streams closed. The next file that it opened
+/// would take the number of one, and be written into by every message: the empty device takes these
+/// numbers first.
 void open_standard_streams();
 
 /// Writes to the standard output and hands it to the system.

@@ -172,7 +172,8 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head, World&
   const fs::path file = newest(folder), aside = name_aside(file);
   try {
     if (ranks.is_root()) {
-      // on a full disk HDF5 may end the whole program when it closes a file: the room is claimed first
+      // on a full disk HDF5 may end the whole program when it closes a file: the room is claimed
+      // first
       const World& whole = root_replica(w);
       if (!std::ofstream(aside, std::ios::trunc)) fail_to_write(aside, errno);
       preallocate(aside, bytes_of_numbers(head, whole, state, result));

@@ -1,12 +1,12 @@
-// Checkpoints: all that a run needs to go on, in one file that any number of threads and ranks can take up.
-// Several ranks write it together, each a part of every column.
+// Checkpoints: all that a run needs to go on, in one file that any number of threads and ranks can
+// take up. Several ranks write it together, each a part of every column.
 //
 //   DIR/checkpoint.h5          the newest; written aside and renamed, with a checksum behind it
 //   DIR/checkpoint-before.h5   the one before, for the case that the newest is damaged
 //
-//   /                      format, version, case (the resolved TOML), run, finished (summary of the runs
-//   before)
-//     particles, bonds     columns: identity, history, state, ledger; in order of ids, as in results.h5
+//   /                      format, version, case (the resolved TOML), run, finished (summaries of
+//                          the runs before)
+//     particles, bonds     columns: identity, history, state, ledger; in order of ids
 //     contacts             the same, and reference
 //     numbers              everything else, see core/loading/saved_state.hpp
 #pragma once
@@ -31,11 +31,11 @@ struct FoundCheckpoint {
   CheckpointHead head;
 };
 
-/// Replaces the newest checkpoint, which becomes the one before. A kill at any moment, or a full disk, leaves
-/// at least one that is whole. Called on every rank; what is not in the tables is the root's.
-/// @throws WriteError; the checkpoints that were there are then as they were, but for the name of the newest
-/// where
-///         the disk fails at the very last
+/// Replaces the newest checkpoint, which becomes the one before. A kill at any moment, or a full
+/// disk, leaves at least one that is whole. Called on every rank; what is not in the tables is the
+/// root's.
+/// @throws WriteError; the checkpoints that were there are then as they were, but for the name of
+///         the newest where the disk fails at the very last
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointHead& head, World& world,
                       const LoadState& state, const LoadResult& result);
 

@@ -1,5 +1,6 @@
-// How the numbers of core/loading/saved_state.hpp lie in a checkpoint: a dataset each, a row for each element,
-// doubles or whole numbers. Written and read back to the same bits. Included by io/results/checkpoint.cpp alone.
+// How the numbers of core/loading/saved_state.hpp lie in a checkpoint: a dataset each, a row for
+// each element, doubles or whole numbers. Written and read back to the same bits. Included by
+// io/results/checkpoint.cpp alone.
 #pragma once
 #include <cstring>
 #include <string>
@@ -13,8 +14,8 @@
 
 namespace breccia {
 
-/// An element as `components` numbers of one kind. Structures of doubles are taken as they lie; those of
-/// other things have a specialisation.
+/// An element as `components` numbers of one kind. Structures of doubles are taken as they lie;
+/// those of other things have a specialisation.
 template <class T>
 struct Flat {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(double) == 0 &&
@@ -63,7 +64,8 @@ struct Flat<std::array<Vec3, n>> {
   }
 };
 
-/// A crack has both kinds. Its ends are stored apart, as whole numbers: a double holds ids only up to 2^53.
+/// A crack has both kinds. Its ends are stored apart, as whole numbers: a double holds ids only up
+/// to 2^53.
 template <>
 struct Flat<Crack> {
   using Number = double;

@@ -8,9 +8,9 @@
 
 namespace breccia {
 
-/// Columns: time_s, axial_strain (of the row in which it broke), gid_lo, gid_hi, x_m, y_m, z_m (middle of the
-/// bond), nx, ny, nz (unit, from lo to hi), mode (1 tension, 2 shear), normal_force_N (tension positive),
-/// shear_force_N, area_m2, energy_J.
+/// Columns: time_s, axial_strain (of the row in which it broke), gid_lo, gid_hi, x_m, y_m, z_m
+/// (middle of the bond), nx, ny, nz (unit, from lo to hi), mode (1 tension, 2 shear),
+/// normal_force_N (tension positive), shear_force_N, area_m2, energy_J.
 class CrackFile {
 public:
   /// @throws WriteError

@@ -9,7 +9,8 @@
 namespace breccia::h5 {
 namespace {
 
-/// Keeps the first error that HDF5 reports, which is the innermost: the walk goes from the cause outwards.
+/// Keeps the first error that HDF5 reports, which is the innermost: the walk goes from the cause
+/// outwards.
 herr_t take_first(unsigned depth, const H5E_error2_t* error, void* reason) {
   if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(reason) = error->desc;
   return 0;
@@ -18,8 +19,8 @@ herr_t take_first(unsigned depth, const H5E_error2_t* error, void* reason) {
 std::string innermost_reason() {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first, &reason);
-  // of "file write failed: time = ..., error message = 'No space left on device', ..." only the message is
-  // news
+  // of "file write failed: time = ..., error message = 'No space left on device', ..." only the
+  // message is news
   constexpr std::string_view mark = "error message = '";
   if (const std::size_t at = reason.find(mark); at != std::string::npos) {
     const std::size_t start = at + mark.size();
@@ -32,13 +33,14 @@ std::string innermost_reason() {
 Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make an access list");
   check(H5Pset_file_locking(access, false, true), "do without locks");
-  // Groups since HDF5 1.8 keep their links in one block; files since 1.10 refuse to be opened after a kill.
+  // Groups since HDF5 1.8 keep their links in one block; files since 1.10 refuse to be opened after
+  // a kill.
   check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "set the version");
   return access;
 }
 
-/// Links stay in the block of the group, and the block has room for so many: adding one overwrites, allocates
-/// nothing.
+/// Links stay in the block of the group, and the block has room for so many: adding one overwrites,
+/// allocates nothing.
 void make_room(hid_t creation, unsigned links) {
   check(H5Pset_link_phase_change(creation, 65535, 65534), "keep links compact");
   check(H5Pset_est_link_info(creation, links, 12), "make room for links");
@@ -66,9 +68,9 @@ hsize_t rows_of_chunk(hsize_t rows) {
   return (rows + chunks - 1) / chunks;
 }
 
-/// Deflate takes five times as long as writing, and gains little on positions and forces; on histories, which
-/// are zero in most bonds, it is fast and gains nearly all. So: where every fourth number repeats the one
-/// before.
+/// Deflate takes five times as long as writing, and gains little on positions and forces; on
+/// histories, which are zero in most bonds, it is fast and gains nearly all. So: where every fourth
+/// number repeats the one before.
 bool is_worth_deflating(const Dataset& dataset) {
   if (dataset.number != Number::real) return true;
   const std::size_t rows = dataset.ranks.alone() ? dataset.rows : dataset.count;
@@ -176,7 +178,8 @@ void write_attribute(hid_t object, const char* name, std::uint64_t value) {
 }
 
 void write_attribute(hid_t object, const char* name, std::string_view text) {
-  // of variable length: h5py hands such a text on as str, one of fixed length as bytes; and no limit at 64 kB
+  // of variable length: h5py hands such a text on as str, one of fixed length as bytes; and no
+  // limit at 64 kB
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, name);
   check(H5Tset_size(type, H5T_VARIABLE), name);
   check(H5Tset_cset(type, H5T_CSET_UTF8), name);

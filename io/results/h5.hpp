@@ -1,5 +1,5 @@
-// The little of HDF5 that breccia uses: handles that close themselves, and errors as one exception with one
-// cause. Included by the .cpp files that write or read HDF5, by no header.
+// The little of HDF5 that breccia uses: handles that close themselves, and errors as one exception
+// with one cause. Included by the .cpp files that write or read HDF5, by no header.
 #pragma once
 #include <hdf5.h>
 
@@ -19,8 +19,8 @@ struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Before any other call: HDF5 neither prints its own stack of errors nor writes on when the program ends.
-/// Calling it again costs nothing.
+/// Before any other call: HDF5 neither prints its own stack of errors nor writes on when the
+/// program ends. Calling it again costs nothing.
 void prepare();
 
 /// @throws Failure with `doing` and HDF5's innermost reason, when `result` is negative
@@ -31,7 +31,8 @@ class Handle {
 public:
   using Close = herr_t (*)(hid_t);
   /// @throws Failure when id is negative, as HDF5's functions return where they fail
-  /// @param shared  by several ranks: where one of them alone fails, it must not wait for the others to close
+  /// @param shared  by several ranks: where one of them alone fails, it must not wait for the
+  ///         others to close
   Handle(hid_t id, Close closer, std::string_view doing, bool shared = false)
       : id_(id), close_(closer), shared_(shared) {
     check(id, doing);
@@ -52,10 +53,11 @@ private:
   bool shared_;
 };
 
-/// Opens an existing file to be changed, or makes a new one. Without HDF5's own locks: a run must not stop
-/// because someone looks at its results.
+/// Opens an existing file to be changed, or makes a new one. Without HDF5's own locks: a run must
+/// not stop because someone looks at its results.
 Handle open_file(const std::string& name);
-/// Of several ranks, on all of them together: whatever is done with the file, all must do, in the same order.
+/// Of several ranks, on all of them together: whatever is done with the file, all must do, in the
+/// same order.
 Handle open_file(const std::string& name, const Ranks& ranks);
 Handle open_to_read(const std::string& name);
 Handle create_file(const std::string& name, unsigned links_of_root);
@@ -83,8 +85,9 @@ std::string read_text_attribute(hid_t object, const char* name);
 /// Numbers that a dataset can hold, in memory and in the file.
 enum class Number { real, id, byte };
 
-/// A dataset, or the part of it that one rank writes: rows x components numbers with the attributes unit,
-/// role and meaning (left out where they are empty); checksummed and, where it pays, deflated.
+/// A dataset, or the part of it that one rank writes: rows x components numbers with the attributes
+/// unit, role and meaning (left out where they are empty); checksummed and, where it pays,
+/// deflated.
 struct Dataset {
   std::string name;
   std::string_view unit, role, meaning;

@@ -1,5 +1,5 @@
-// Tables in HDF5: a dataset for each column, rows in an order that does not depend on where they lie in
-// memory. Included by the .cpp files that write or read HDF5, by no header.
+// Tables in HDF5: a dataset for each column, rows in an order that does not depend on where they
+// lie in memory. Included by the .cpp files that write or read HDF5, by no header.
 #pragma once
 #include <span>
 #include <vector>

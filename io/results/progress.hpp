@@ -23,9 +23,8 @@ Progress make_progress(bool quiet);
 void begin(Progress& progress, const std::string& title);
 
 /// @param stage     1 hydrostatic, 2 axial
-/// @param fraction  of the stage that is done; the time left follows from it and is an upper bound, since a
-/// run
-///                  ends when the specimen has failed
+/// @param fraction  of the stage that is done; the time left follows from it and is an upper bound,
+///                  since a run ends when the specimen has failed
 void tell(Progress& progress, const World& world, int stage, double fraction, const CurveRow& row);
 
 /// Any other line; clears the redrawn one first. Both throw WriteError when nobody can read them.

@@ -23,7 +23,8 @@ int frame_of(std::string_view line) {
   return frame;
 }
 
-/// The lines of an existing file that belong to frames below `end`; nothing where there is no such file.
+/// The lines of an existing file that belong to frames below `end`; nothing where there is no such
+/// file.
 std::string frames_below(const std::filesystem::path& file, int end) {
   std::ifstream in(file);
   std::string kept, line;

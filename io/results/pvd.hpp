@@ -11,7 +11,8 @@ struct PvdEntry {
   std::string particles, bonds;  ///< files, relative to the .pvd
 };
 
-/// Adds a frame: the file is rewritten with the frames below `entry.frame` that it has, and this one.
+/// Adds a frame: the file is rewritten with the frames below `entry.frame` that it has, and this
+/// one.
 /// @throws WriteError
 void add_to_pvd(const std::filesystem::path& file, const PvdEntry& entry);
 

@@ -28,14 +28,15 @@ void write_states(hid_t group, const BondTable& bonds, const FileOrder& order) {
   write_rows(group, info, "derived", order, states, false);
 }
 
-/// The most that so many rows of these columns can take in the file: they are stored as they are where
-/// deflate gains nothing.
+/// The most that so many rows of these columns can take in the file: they are stored as they are
+/// where deflate gains nothing.
 template <class Table>
 std::size_t bytes_of(const Table& table, std::size_t rows, bool (*wanted)(Role)) {
   std::size_t bytes = 0;
   table.for_each_column([&](const ColumnInfo& info, const auto& column) {
     using T = ValueOf<decltype(column)>;
-    // 8 kB: header, attributes, index of chunks; 1/256: check sums, last rows of chunks, index of many chunks
+    // 8 kB: header, attributes, index of chunks; 1/256: check sums, last rows of chunks, index of
+    // many chunks
     if (wanted(info.role) && !column.empty()) bytes += rows * sizeof(T) * 257 / 256 + 8192;
   });
   return bytes;
@@ -48,12 +49,13 @@ std::size_t owned_rows(const Partition& partition) {
 constexpr std::size_t bytes_of_group = 65536;  ///< of the groups around the datasets, and their attributes
 constexpr unsigned usual_runs = 64, usual_frames = 128;  ///< more are possible, at a little more risk (below)
 
-// HDF5 changes a file in place: left to itself, a full disk or a kill half-way makes the older frames
-// unreadable too (tried: "addr overflow" when they are listed; its exit handler may crash on top). So the
-// space is claimed before HDF5 opens the file, and HDF5 gives back what it did not need. A process that dies
-// in between leaves a file that is too long, which HDF5 accepts, never one that is too short. And a new group
-// is written and flushed behind everything else before anything refers to it. What is overwritten in place
-// after that is the block of links of its parent, which has room for one more.
+// HDF5 changes a file in place: left to itself, a full disk or a kill half-way makes the older
+// frames unreadable too (tried: "addr overflow" when they are listed; its exit handler may crash on
+// top). So the space is claimed before HDF5 opens the file, and HDF5 gives back what it did not
+// need. A process that dies in between leaves a file that is too long, which HDF5 accepts, never
+// one that is too short. And a new group is written and flushed behind everything else before
+// anything refers to it. What is overwritten in place after that is the block of links of its
+// parent, which has room for one more.
 
 /// Adds the group parent/name, made for so many links, filled by `write(group)` on all ranks.
 /// @param bytes  of columns at most, on this rank

@@ -21,7 +21,8 @@ Json of(const CycleSummary& cycle) {
           {"reloading_modulus_Pa", cycle.reloading_modulus_Pa}};
 }
 
-/// The fields of a run in the order in which they are explained: what is written and what is read back.
+/// The fields of a run in the order in which they are explained: what is written and what is read
+/// back.
 template <class Run, class Visit>
 void for_each_field(Run& run, Visit&& visit) {
   visit("confinement_Pa", run.confinement_Pa);

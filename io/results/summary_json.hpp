@@ -25,8 +25,9 @@ struct FinishedRuns {
 /// @throws BadInput when the file is damaged
 FinishedRuns finished_runs(const std::filesystem::path& file);
 
-/// For the terminal: a table with one line per run, the line of peaks if there is one, warnings, where the
-/// time went, where the files are. Columns without a value in any run are left out. Lines end with '\n'.
+/// For the terminal: a table with one line per run, the line of peaks if there is one, warnings,
+/// where the time went, where the files are. Columns without a value in any run are left out. Lines
+/// end with '\n'.
 std::string format_summary_table(const SeriesSummary& series, const std::filesystem::path& folder);
 
 }  // namespace breccia

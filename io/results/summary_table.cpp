@@ -117,7 +117,8 @@ std::string error_of(const RunSummary& run) {
       percent(*run.sampling_error), run.run_time_s);
 }
 
-/// What a series has really written, of what it may write: first and last where there is one for each run.
+/// What a series has really written, of what it may write: first and last where there is one for
+/// each run.
 std::vector<std::string> files_of(const SeriesSummary& series, const std::filesystem::path& folder) {
   std::vector<std::string> files;
   std::error_code ignored;

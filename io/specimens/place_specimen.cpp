@@ -20,7 +20,8 @@ Vec3 turned(const Vec3& p, char axis) {
 
 double along(const Vec3& p, char axis) { return axis == 'x' ? p.x : axis == 'y' ? p.y : p.z; }
 
-/// The coordinate across the axis, of the two, that varies less: the discs' own axis. y where neither varies.
+/// The coordinate across the axis, of the two, that varies less: the discs' own axis. y where
+/// neither varies.
 char flat_coordinate(const Specimen& specimen, char axis) {
   const auto spread = [&](char of) {
     const auto [low, high] = std::minmax_element(
@@ -111,7 +112,8 @@ std::optional<double> times_nominal(const Specimen& specimen, const Body& body, 
   return even ? std::optional(mean) : std::nullopt;
 }
 
-/// Where the spheres are the nominal body but for one factor: which unit may have been taken for which.
+/// Where the spheres are the nominal body but for one factor: which unit may have been taken for
+/// which.
 std::string unit_hint(const Specimen& specimen, const Body& body, Space space) {
   const std::optional<double> times = times_nominal(specimen, body, space);
   if (!times || (*times > 0.6 && *times < 1.7)) return "";
@@ -252,7 +254,8 @@ Vec3 way_in_file(const Specimen& as_read, const Vec3& way, char axis, Space spac
 
 Specimen stand_disc(Specimen specimen, char axis, std::optional<char> load_axis) {
   const char load = load_axis.value_or(axis == 'z' ? 'y' : 'z');
-  // the file's axes x, y, z lie after place_specimen along: axis z: x, y, z; axis y: y, z, x; axis x: z, x, y
+  // the file's axes x, y, z lie after place_specimen along: axis z: x, y, z; axis y: y, z, x; axis
+  // x: z, x, y
   const bool along_x = axis == 'z' ? load == 'x' : axis == 'y' ? load == 'z' : load == 'y';
   for (SpecimenSphere& s : specimen.spheres) {
     const Vec3 c = s.centre;

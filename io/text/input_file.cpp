@@ -34,7 +34,8 @@ std::string why_no_file(const std::filesystem::path& path) {
 }
 
 InputFile open_input(const std::filesystem::path& file) {
-  // looked at before it is opened, since that alone may wind a device, and after, since names change hands
+  // looked at before it is opened, since that alone may wind a device, and after, since names
+  // change hands
   std::string why = why_no_file(file);
   const int opened = why.empty() ? ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC) : -1;
   if (why.empty()) {

@@ -12,7 +12,8 @@ bool continues(std::string_view text, std::size_t at) {
   return at < text.size() && (byte(text, at) & 0xc0) == 0x80;
 }
 
-/// Bytes of the character that begins here; 0 where none does (RFC 3629: no surrogates, shortest form only).
+/// Bytes of the character that begins here; 0 where none does (RFC 3629: no surrogates, shortest
+/// form only).
 std::size_t character(std::string_view text, std::size_t at) {
   const unsigned char first = byte(text, at);
   if (first < 0x80) return 1;

@@ -14,8 +14,8 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// Distance of the words as they are counts once, without regard to case twice: "Mpa" is nearer to "MPa" than
-/// to "bar".
+/// Distance of the words as they are counts once, without regard to case twice: "Mpa" is nearer to
+/// "MPa" than to "bar".
 std::size_t nearness(std::string_view word, std::string_view candidate) {
   return edit_distance(word, candidate) + 2 * edit_distance(lower(word), lower(candidate));
 }

@@ -6,7 +6,8 @@
 
 namespace breccia {
 
-/// Fewest insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
+/// Fewest insertions, deletions, replacements and swaps of neighbours that turn one word into the
+/// other.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate nearest to `word`, differences of case counting little; empty when none is near.
@@ -18,7 +19,8 @@ std::string suggest(std::string_view word, const std::vector<std::string>& candi
 /// Words in double quotes with commas between them.
 std::string quote_list(const std::vector<std::string>& words);
 
-/// Text in double quotes on one line: control characters become blanks, a long text is shortened between words.
+/// Text in double quotes on one line: control characters become blanks, a long text is shortened
+/// between words.
 std::string quote(std::string_view text);
 
 }  // namespace breccia

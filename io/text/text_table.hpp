@@ -10,8 +10,8 @@ struct TextColumn {
   std::vector<std::string> cells;  ///< one for each row; empty where the row has no value
 };
 
-/// Names, units and rows, columns to the right of each other; a cell without a value is a dash, a column
-/// without any is left out. Lines end with '\n'.
+/// Names, units and rows, columns to the right of each other; a cell without a value is a dash, a
+/// column without any is left out. Lines end with '\n'.
 /// @param columns  all of the same number of cells
 std::string format_columns(const std::vector<TextColumn>& columns);
 

@@ -6,7 +6,8 @@
 namespace breccia {
 namespace {
 
-/// Behind the string that begins here. One that never ends goes to the end of its line, or of the text.
+/// Behind the string that begins here. One that never ends goes to the end of its line, or of the
+/// text.
 std::size_t behind_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const bool escapes = quote == '"', several_lines = text.substr(at, 3) == std::string(3, quote);

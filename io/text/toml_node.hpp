@@ -1,4 +1,5 @@
-// A TOML file as plain data, each value with its place. Only toml_node.cpp knows the library that parses.
+// A TOML file as plain data, each value with its place. Only toml_node.cpp knows the library that
+// parses.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -24,8 +25,8 @@ struct TomlNode {
 /// @throws BadInput: file (and line) with what is wrong: absent, no file, nested too deep, not TOML
 TomlNode read_toml(const std::filesystem::path& file);
 
-/// Parses what stands behind "key=" on a command line: a TOML value, or the text itself as a string where it
-/// is none.
+/// Parses what stands behind "key=" on a command line: a TOML value, or the text itself as a string
+/// where it is none.
 TomlNode parse_toml_value(const std::string& text, const std::string& place);
 
 /// A text as a TOML string in double quotes, escaped.

@@ -60,7 +60,8 @@ int parse_power(std::string_view& rest, std::string_view whole) {
   return power;
 }
 
-/// unit := power { ("*" | "/") power }, power := name [ [^] number ]; a slash divides by the next name only.
+/// unit := power { ("*" | "/") power }, power := name [ [^] number ]; a slash divides by the next
+/// name only.
 Scale parse_unit(std::string_view whole, Dimension wanted) {
   const std::string ascii = in_ascii(whole);
   std::string_view rest = ascii;
@@ -133,8 +134,8 @@ constexpr std::array shown{Shown{dimension::stress, "GPa", 9},
                            Shown{dimension::mass, "kg", 0},
                            Shown{dimension::force, "N", 0}};
 
-/// Shortest digits of a double with the decimal point moved: the value is digits x 10^(exponent + 1 -
-/// digits.size()).
+/// Shortest digits of a double with the decimal point moved: the value is digits x 10^(exponent + 1
+/// - digits.size()).
 std::string decimal(const std::string& digits, int exponent) {
   const int point = exponent + 1, length = static_cast<int>(digits.size());
   if (point > 18 || point < -5) {
@@ -146,8 +147,8 @@ std::string decimal(const std::string& digits, int exponent) {
                      digits.substr(static_cast<std::size_t>(point)));
 }
 
-/// "500 psi" rather than its 17 digits in MPa: what was given in inches or pounds is shown so, if that is
-/// exact.
+/// "500 psi" rather than its 17 digits in MPa: what was given in inches or pounds is shown so, if
+/// that is exact.
 std::string in_pounds(double si, Dimension d) {
   for (const char* name : {"psi", "in", "lb/ft^3", "lb", "lbf"}) {
     const Scale scale = parse_unit(name, d);

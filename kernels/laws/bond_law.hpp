@@ -1,13 +1,13 @@
 // What a bond law is made of. A law is a struct of constants with
 //   name, takes      its word in a case, and the shared keys of [material] that it uses
 //   own              keys that it alone has
-//   defaults        what a case with this law gets where it does not say otherwise ("bonds.area", ...)
+//   defaults        what a case with this law gets where it does not say otherwise
 //   feature_sets     the scenes that a kernel is built for, from the leanest to the fullest
 //   of(material)     its constants from a material
 //   young, shear_ratio, failure
 // and, beside it, plastic_stretch(law, bond, u, before) where it has plasticity; `stiffness_of` and
-// `limits_of` are overloaded where k_n is not E A/L or strengths are not stresses. It is registered by its
-// line in kernels/laws/bond_laws.hpp.
+// `limits_of` are overloaded where k_n is not E A/L or strengths are not stresses. It is registered
+// by its line in kernels/laws/bond_laws.hpp.
 #pragma once
 #include <limits>
 #include <string_view>

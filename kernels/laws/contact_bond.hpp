@@ -1,7 +1,7 @@
-// The contact bond of discs: a point of glue with stiffnesses and strengths that do not depend on the size of
-// the discs; Coulomb friction once it is broken. Fakhimi and Villegas, "Application of dimensional analysis
-// in calibration of a discrete element model for rock deformation and fracture", Rock Mech. Rock Engng 40
-// (2007) 193-211; docs/model.md, "contact-bond".
+// The contact bond of discs: a point of glue with stiffnesses and strengths that do not depend on
+// the size of the discs; Coulomb friction once it is broken. Fakhimi and Villegas, "Application of
+// dimensional analysis in calibration of a discrete element model for rock deformation and
+// fracture", Rock Mech. Rock Engng 40 (2007) 193-211; docs/model.md, "contact-bond".
 #pragma once
 #include <array>
 

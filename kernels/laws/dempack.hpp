@@ -1,7 +1,7 @@
-// The Dempack law: three-slope plasticity in compression; tension, shear and friction as in failure.hpp.
-// Onate, Zarate, Miquel, Santasusana et al., "A local constitutive model for the discrete element method.
-// Application to geomaterials and concrete", Comput. Part. Mech. 2 (2015), eqs. 21-53;
-// docs/model.md, "Dempack law, normal direction".
+// The Dempack law: three-slope plasticity in compression; tension, shear and friction as in
+// failure.hpp. Onate, Zarate, Miquel, Santasusana et al., "A local constitutive model for the
+// discrete element method. Application to geomaterials and concrete", Comput. Part. Mech. 2 (2015),
+// eqs. 21-53; docs/model.md, "Dempack law, normal direction".
 #pragma once
 #include <array>
 

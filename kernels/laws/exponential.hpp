@@ -1,7 +1,7 @@
-// Concrete under high confinement: linear up to a compressive strain, then a secant stiffness that falls and,
-// as pores close, rises exponentially; Mohr-Coulomb in shear. Tran, Donze and Marin, "Discrete element
-// modelling of concrete under high-triaxial loading", Cem. Concr. Compos. 33 (2011), as in the Arrufat
-// thesis, section 4.3; docs/model.md, "Exponential".
+// Concrete under high confinement: linear up to a compressive strain, then a secant stiffness that
+// falls and, as pores close, rises exponentially; Mohr-Coulomb in shear. Tran, Donze and Marin,
+// "Discrete element modelling of concrete under high-triaxial loading", Cem. Concr. Compos. 33
+// (2011), as in the Arrufat thesis, section 4.3; docs/model.md, "Exponential".
 #pragma once
 #include <array>
 

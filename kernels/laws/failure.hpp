@@ -1,8 +1,8 @@
-// How a bond fails: linear softening in tension and shear with secant unloading, a shear strength that grows
-// with pressure, Coulomb friction after failure. Onate, Zarate, Miquel, Santasusana et al., "A local
-// constitutive model for the discrete element method. Application to geomaterials and concrete", Comput.
-// Part. Mech. 2 (2015), eqs. 21-49; every point that the paper leaves open as in docs/model.md,
-// "Tension" and "Dempack law, shear". Tension and elongation are positive.
+// How a bond fails: linear softening in tension and shear with secant unloading, a shear strength
+// that grows with pressure, Coulomb friction after failure. Onate, Zarate, Miquel, Santasusana et
+// al., "A local constitutive model for the discrete element method. Application to geomaterials and
+// concrete", Comput. Part. Mech. 2 (2015), eqs. 21-49; every point that the paper leaves open as in
+// docs/model.md, "Tension" and "Dempack law, shear". Tension and elongation are positive.
 #pragma once
 #include "kernels/laws/bond.hpp"
 #include "kernels/laws/features.hpp"
@@ -66,7 +66,8 @@ inline R damage_at(const R& ratio, const R& delta) {
   return select(delta > R(0.0), larger(R(0.0), smaller(R(1.0), (ratio - R(1.0)) / delta)), R(1.0));
 }
 
-/// A bond without stiffness and area has length 0/0; with the NaN in front, `larger` makes its delta 0.
+/// A bond without stiffness and area has length 0/0; with the NaN in front, `larger` makes its
+/// delta 0.
 template <class R>
 inline R delta_normal(const Failure& failure, const R& length) {
   return larger(R(failure.softening_normal) + R(failure.softening_normal_length) / length, R(0.0));
@@ -76,8 +77,8 @@ inline R delta_shear(const Failure& failure, const R& length) {
   return larger(R(failure.softening_shear) + R(failure.softening_shear_length) / length, R(0.0));
 }
 
-/// Tension, shear and friction of one bond. `h.shear` has been carried along and has had this step's k_s du
-/// added.
+/// Tension, shear and friction of one bond. `h.shear` has been carried along and has had this
+/// step's k_s du added.
 /// @param young  Pa; with the area it gives the length that softening refers to
 template <bool coupled, class R>
 inline BondForce<R> breakable_force(const Failure& failure, double young, const BondLimits<R>& limits,
@@ -160,7 +161,8 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
       const auto grows = beyond && trial > strength * (one + delta * h.damage_shear);  // (B21)
       const R damage = larger(h.damage_shear, damage_at(trial / strength, delta));
       const auto fails = grows && (damage >= one || (one - damage) * strength <= friction);
-      // the force that a failing bond hands over to friction is the one it carried before this step's damage
+      // the force that a failing bond hands over to friction is the one it carried before this
+      // step's damage
       h.shear = select(fails, g_shear * h.shear, h.shear);  // (B21)
       if constexpr (coupled) h.damage_normal = select(grows && !fails, damage, h.damage_normal);
       h.damage_shear = select(grows, select(fails, one, damage), h.damage_shear);

@@ -1,4 +1,5 @@
-// What a scene asks of the bond loop, fixed at compile time: a feature that is off costs no instruction.
+// What a scene asks of the bond loop, fixed at compile time: a feature that is off costs no
+// instruction.
 #pragma once
 
 namespace breccia {
@@ -29,9 +30,9 @@ struct Features {
 
   constexpr bool operator==(const Features&) const = default;
 
-  /// True when a kernel built for `this` also computes the scene `other`: a superset whose surplus can be
-  /// switched off by constants (infinite strengths and limits, no dashpot, a Mohr-Coulomb line that is flat
-  /// in tension) or by spins that stay zero.
+  /// True when a kernel built for `this` also computes the scene `other`: a superset whose surplus
+  /// can be switched off by constants (infinite strengths and limits, no dashpot, a Mohr-Coulomb
+  /// line that is flat in tension) or by spins that stay zero.
   constexpr bool covers(const Features& other) const {
     const bool coupled = criterion == Criterion::coupled,
                asks_coupled = other.criterion == Criterion::coupled;

@@ -1,6 +1,6 @@
-// The contact of two elastic spheres: Hertz along the normal, Mindlin's no-slip stiffness across it with
-// Coulomb friction by radial return, viscous damping that gives a coefficient of restitution. Johnson,
-// Contact Mechanics (1985), sections 4.2 and 7.2.
+// The contact of two elastic spheres: Hertz along the normal, Mindlin's no-slip stiffness across it
+// with Coulomb friction by radial return, viscous damping that gives a coefficient of restitution.
+// Johnson, Contact Mechanics (1985), sections 4.2 and 7.2.
 #pragma once
 #include "kernels/laws/pair_kinematics.hpp"
 
@@ -21,8 +21,8 @@ struct ElasticBody {
   double inverse_mass = 0;        ///< 1/kg
 };
 
-/// 4/3 E* sqrt(R*) and 8 G* sqrt(R*); damping from the fraction xi of critical (see kernels/laws/restitution.hpp):
-/// c = sqrt(5) xi sqrt(m k) u^(1/4) = 2 sqrt(5/6) xi sqrt(m dF/du).
+/// 4/3 E* sqrt(R*) and 8 G* sqrt(R*); damping from the fraction xi of critical (see
+/// kernels/laws/restitution.hpp): c = sqrt(5) xi sqrt(m k) u^(1/4) = 2 sqrt(5/6) xi sqrt(m dF/du).
 inline HertzMindlin hertz_mindlin(const ElasticBody& a, const ElasticBody& b, double xi, double friction) {
   const auto normal_compliance = [](const ElasticBody& e) { return (1.0 - e.poisson * e.poisson) / e.young; };
   const auto shear_compliance = [](const ElasticBody& e) {
@@ -40,17 +40,17 @@ struct ContactMemory {
   double overlap = 0;  ///< m, of the step before
 };
 
-/// How springs and dashpots of the contact go together. While it sticks, a tangential dashpot with the same
-/// fraction of critical damping as the normal one acts beside the tangential spring (Tsuji, Tanaka and Ishida
-/// 1992). dissipative: never pulls; the tangential spring is incremental and gives back less while the
-/// overlap shrinks, so
-///              that no path gains energy (Thornton, Cummins and Cleary, Powder Technol. 233, 2013); friction
-///              is measured by the total normal force and limits spring and dashpot together
-/// classic:     as widely used codes have it, for comparison with them: pulls at the end of a damped impact;
-/// the
-///              tangential spring force is the present stiffness times the stretch so far; friction is
-///              measured by the normal spring alone and limits the tangential spring alone. Some paths gain
-///              up to 4 % of tangential energy
+/// How springs and dashpots of the contact go together. While it sticks, a tangential dashpot with
+/// the same fraction of critical damping as the normal one acts beside the tangential spring
+/// (Tsuji, Tanaka and Ishida 1992).
+/// dissipative: never pulls; the tangential spring is incremental and gives back less while the
+/// overlap shrinks, so that no path gains energy (Thornton, Cummins and Cleary, Powder Technol.
+/// 233, 2013); friction is measured by the total normal force and limits spring and dashpot
+/// together.
+/// classic: as widely used codes have it, for comparison with them: pulls at the end of a
+/// damped impact; the tangential spring force is the present stiffness times the stretch so
+/// far; friction is measured by the normal spring alone and limits the tangential spring alone.
+/// Some paths gain up to 4 % of tangential energy.
 enum class HertzForm : unsigned char { dissipative, classic };
 
 inline Vec3 cut_to(const Vec3& shear, double limit) {

@@ -1,7 +1,7 @@
-// The elastic-brittle law of KDEM: no plasticity, no softening; the stiffness stands on the areas of virtual
-// polyhedra, with factors alpha on k_n and beta on k_s. Santasusana, "Kratos DEM, a parallel code for
-// concrete testing simulations using the discrete element method", MSc thesis, eqs. 4.33, 4.34 (without the
-// second pi) and 5.7; docs/model.md, "kdem".
+// The elastic-brittle law of KDEM: no plasticity, no softening; the stiffness stands on the areas
+// of virtual polyhedra, with factors alpha on k_n and beta on k_s. Santasusana, "Kratos DEM, a
+// parallel code for concrete testing simulations using the discrete element method", MSc thesis,
+// eqs. 4.33, 4.34 (without the second pi) and 5.7; docs/model.md, "kdem".
 #pragma once
 #include <array>
 

@@ -1,5 +1,5 @@
-// The linear frictional contact of two surfaces that were never bonded: a spring and a dashpot that never
-// pull, Coulomb friction by radial return: docs/model.md, "In bonded scenes"; Onate et al.
+// The linear frictional contact of two surfaces that were never bonded: a spring and a dashpot that
+// never pull, Coulomb friction by radial return: docs/model.md, "In bonded scenes"; Onate et al.
 // 2015, eqs. 30, 36, 45.
 #pragma once
 #include "kernels/laws/pair_kinematics.hpp"

@@ -10,8 +10,8 @@
 
 namespace breccia {
 
-/// Parameters of a bond law for one confinement; their names are those of Onate et al. 2015, tables 2 to 6.
-/// Which of them a law takes, its header says.
+/// Parameters of a bond law for one confinement; their names are those of Onate et al. 2015, tables
+/// 2 to 6. Which of them a law takes, its header says.
 struct Material {
   double density = 0;           ///< kg/m^3, of the spheres
   double young_modulus = 0;     ///< Pa, of the specimen

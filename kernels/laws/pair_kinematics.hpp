@@ -46,8 +46,8 @@ inline Pair<R> relative_motion(const Ends<R>& ends, const R& arm_offset, double 
   const Vec<R>&l = ends.branch, &dv = ends.velocity;
   const R step = dt;
   Pair<R> p;
-  // a step turns and stretches a pair little, so the distance before it, d0, needs neither root nor division:
-  // d/d0 is a short series. Products that do not wait for each other come first
+  // a step turns and stretches a pair little, so the distance before it, d0, needs neither root nor
+  // division: d/d0 is a short series. Products that do not wait for each other come first
   const Vec<R> before = l - step * dv;  // (B4)
   const R square = dot(l, l), per_square = R(1.0) / square;
   p.distance = square_root(square);
@@ -59,8 +59,8 @@ inline Pair<R> relative_motion(const Ends<R>& ends, const R& arm_offset, double 
   p.rate = dot(dv, p.normal);  // (P26)
   Vec<R> at_contact = dv - p.rate * p.normal;
   if constexpr (rotation) {
-    // arms times spins, as mean and difference of the ends: the same bits whichever end comes first, also
-    // where the compiler fuses a product with a sum
+    // arms times spins, as mean and difference of the ends: the same bits whichever end comes
+    // first, also where the compiler fuses a product with a sum
     at_contact -= cross(R(0.5) * ends.spin_sum + arm_offset * ends.spin_difference, l);  // (B3)
     p.twist = R(0.5 * dt) * dot(ends.spin_sum, p.normal);
   }
@@ -76,8 +76,8 @@ inline R elongation(const Ends<R>& ends, const Pair<R>& p, double dt) {
   return dot(moved, ends.branch + before) / (p.distance + dot(before, p.normal_before));
 }
 
-/// Carries a tangential vector along with the pair: the turn of the normal, then the mean twist about it.
-/// Its length does not change. (B5)
+/// Carries a tangential vector along with the pair: the turn of the normal, then the mean twist
+/// about it. Its length does not change. (B5)
 template <bool rotation, class R>
 inline Vec<R> rotate_with_pair(const Vec<R>& f, const Pair<R>& p) {
   const R along = R(0.5) * dot(f, p.normal) * inverse_near_one(R(0.5) + R(0.5) * p.turn_cosine);

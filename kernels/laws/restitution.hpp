@@ -1,14 +1,14 @@
 // Damping of a contact from its coefficient of restitution, and back.
 // docs/model.md, "Impacts".
 //
-// A linear contact m u'' + c u' + k u = 0 with xi = c/(2 sqrt(m k)) that never pulls is over when its total
-// force comes down to zero, still overlapping: e = exp(-(pi - 2 phi) tan phi), phi = asin xi (Schwager and
-// Poeschel, Granular Matter 9, 2007). At xi = 1 that is exp(-2) = 0.135; beyond, phi is imaginary and, with
-// cosh s = xi, e = exp(-2 s coth s).
+// A linear contact m u'' + c u' + k u = 0 with xi = c/(2 sqrt(m k)) that never pulls is over when
+// its total force comes down to zero, still overlapping: e = exp(-(pi - 2 phi) tan phi), phi = asin
+// xi (Schwager and Poeschel, Granular Matter 9, 2007). At xi = 1 that is exp(-2) = 0.135; beyond,
+// phi is imaginary and, with cosh s = xi, e = exp(-2 s coth s).
 //
-// The Hertz contact m u'' + c u^(1/4) u' + k u^(3/2) = 0 has the same e: in s = u^(5/4) its phase plane is
-// that of a linear one, v dv/ds = -(4/5)(k s + c v)/m, with xi = c/sqrt(5 m k) (Antypov and Elliott,
-// Europhys. Lett. 94, 2011), and it loses its force at the same point of that plane.
+// The Hertz contact m u'' + c u^(1/4) u' + k u^(3/2) = 0 has the same e: in s = u^(5/4) its phase
+// plane is that of a linear one, v dv/ds = -(4/5)(k s + c v)/m, with xi = c/sqrt(5 m k) (Antypov
+// and Elliott, Europhys. Lett. 94, 2011), and it loses its force at the same point of that plane.
 #pragma once
 #include <cmath>
 #include <numbers>

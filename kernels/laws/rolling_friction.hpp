@@ -1,5 +1,6 @@
 // Resistance of a contact to rolling, limited by mu_r R* F_n: models A (constant torque) and C
-// (elastic-plastic, without its viscous part) of Ai, Chen, Rotter and Ooi, Powder Technol. 206 (2011).
+// (elastic-plastic, without its viscous part) of Ai, Chen, Rotter and Ooi, Powder Technol. 206
+// (2011).
 #pragma once
 #include "kernels/math/lanes.hpp"
 

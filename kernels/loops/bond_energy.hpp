@@ -35,8 +35,8 @@ inline BondSecant secant_of(const Law& law, const BondConstants<double>& bond, c
   return s;
 }
 
-/// J. Normal: 1/2 k_n g(D_n) u_e^2 pulled, 1/2 k_n u_e^2 pressed, none broken and apart; shear: |F_s|^2/(2
-/// k_s g(D_s)).
+/// J. Normal: 1/2 k_n g(D_n) u_e^2 pulled, 1/2 k_n u_e^2 pressed, none broken and apart; shear:
+/// |F_s|^2/(2 k_s g(D_s)).
 template <class Law>
 inline double stored_energy(const Law& law, const BondConstants<double>& bond, const BondHistory<double>& h,
                             double distance, bool coupled) {

@@ -1,5 +1,5 @@
-// The loop over bonds in batches of a register: motion of the ends, law, forces. The same for every way of
-// storing a bond: a `Bonds` has
+// The loop over bonds in batches of a register: motion of the ends, law, forces. The same for every
+// way of storing a bond: a `Bonds` has
 //   load<Column>(b), store<Column>(b, values)   a quantity of bonds [b, b + width)
 //   lo(k), hi(k)                                rows of the ends of bond k
 //   size()                                      bonds stored
@@ -54,9 +54,9 @@ template <Features features, class Bonds>
   return ends;
 }
 
-/// Asks for the rows of the far ends of a later batch: the stream of bonds pushes particles out of the near
-/// caches, and the processor cannot guess which come next. Bonds are sorted by their lower row, so the other
-/// end has just been used.
+/// Asks for the rows of the far ends of a later batch: the stream of bonds pushes particles out of
+/// the near caches, and the processor cannot guess which come next. Bonds are sorted by their lower
+/// row, so the other end has just been used.
 template <Features features, class Bonds>
 [[gnu::always_inline]] inline void prefetch_ends(const ParticleRows& p, const Bonds& bonds, const Scatter& to,
                                                  std::size_t b) {
@@ -136,8 +136,8 @@ template <Features features>
     return false;
 }
 
-/// Losses of a batch, added to those of its block; forces that do not follow from the state are kept for the
-/// next step.
+/// Losses of a batch, added to those of its block; forces that do not follow from the state are
+/// kept for the next step.
 template <Features features, class Law, class Bonds>
 [[gnu::always_inline]] inline void keep_losses(const Law& law, const BondConstants<Lanes>& bond,
                                                const Ends<Lanes>& ends, const Pair<Lanes>& pair, double dt,
@@ -149,7 +149,8 @@ template <Features features, class Law, class Bonds>
   if constexpr (features.contact_damping) viscous = bonds.template load<Column::viscous_force>(b);
   LastForces<Lanes> last = forces_before<features>(bond, pair, stretch, before, viscous);
   if (is_damaged<features>(before)) {
-    // bond by bond: which others share a register changes with the processor and the number of ranks
+    // bond by bond: which others share a register changes with the processor and the number of
+    // ranks
     const auto damaged = damaged_lanes(before);
     last.spring = select(damaged, bonds.template load<Column::spring_force>(b), last.spring);
     last.shear_factor = select(damaged, bonds.template load<Column::shear_factor>(b), last.shear_factor);
@@ -176,12 +177,11 @@ template <Features features, class Law, class Bonds>
   to.failure += reduce(sum.failure);
 }
 
-/// Bonds [first, last). To be flattened by the caller: with several laws in one file the compiler stops
-/// inlining a law into its loop by itself, and wide registers then travel through memory (19 ns a bond
-/// instead of 13).
-/// @tparam ledger  losses are summed block by block, `losses[b/64]`; ranges then begin at whole blocks, so
-/// that
-///                 no sum depends on how the bonds are shared out
+/// Bonds [first, last). To be flattened by the caller: with several laws in one file the compiler
+/// stops inlining a law into its loop by itself, and wide registers then travel through memory (19
+/// ns a bond instead of 13).
+/// @tparam ledger  losses are summed block by block, `losses[b/64]`; ranges then begin at whole
+///                 blocks, so that no sum depends on how the bonds are shared out
 template <Features features, bool ledger, class Law, class Bonds>
 [[gnu::always_inline]] inline void bond_loop(const Law& law, double dt, const ParticleRows& p,
                                              const Bonds& bonds, std::size_t first, std::size_t last,

@@ -1,5 +1,5 @@
-// Compiled once per instruction set (BRECCIA_ISA names it), each in a namespace of its own, so that no
-// function built for wide registers can be linked into code that runs without them.
+// Compiled once per instruction set (BRECCIA_ISA names it), each in a namespace of its own, so that
+// no function built for wide registers can be linked into code that runs without them.
 #include "kernels/loops/bond_pass.hpp"
 
 #include "kernels/loops/bond_loop.hpp"
@@ -8,8 +8,8 @@
 namespace breccia::BRECCIA_ISA {
 namespace {
 
-/// Bonds as a structure of arrays of `Stored`; the rest length, from which small stretches are subtracted, is
-/// a double always.
+/// Bonds as a structure of arrays of `Stored`; the rest length, from which small stretches are
+/// subtracted, is a double always.
 template <class Stored>
 struct ColumnBonds {
   const BondPassIn& in;

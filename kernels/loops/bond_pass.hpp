@@ -1,5 +1,5 @@
-// One pass over a range of bonds: motion of the ends, law, forces. Compiled once per instruction set and
-// feature set.
+// One pass over a range of bonds: motion of the ends, law, forces. Compiled once per instruction
+// set and feature set.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -14,8 +14,8 @@ namespace breccia {
 /// Bonds are padded to a multiple of this, whatever the register's width.
 inline constexpr std::size_t bond_batch = 8;
 
-/// What does not change of the bonds, beside their rest length. `Stored`: double, or float for mixed
-/// precision.
+/// What does not change of the bonds, beside their rest length. `Stored`: double, or float for
+/// mixed precision.
 template <class Stored>
 struct BondConstantColumns {
   std::span<const Stored> arm_offset, area, strength_area, stiffness, damping;
@@ -27,8 +27,9 @@ struct BondHistoryColumns {
   std::span<Stored> shear_x, shear_y, shear_z, plastic_stretch, damage_normal, damage_shear;
 };
 
-/// What the pass reads. Rows of particles (velocities and spins as far apart as positions), spans by bond
-/// row; columns of absent features, and those of the precision that does not run, are empty.
+/// What the pass reads. Rows of particles (velocities and spins as far apart as positions), spans
+/// by bond row; columns of absent features, and those of the precision that does not run, are
+/// empty.
 struct BondPassIn {
   double dt = 0;              ///< s
   const void* law = nullptr;  ///< constants, of the type that the kernel was chosen for (see constants_of)
@@ -64,13 +65,13 @@ struct BreakNotes {
   std::size_t count = 0;
 };
 
-/// Bonds [first, last), both multiples of `bond_batch`, `first` of ForceBuffer::capacity where there is a
-/// ledger. Breaks are noted unless the pointer is null.
+/// Bonds [first, last), both multiples of `bond_batch`, `first` of ForceBuffer::capacity where
+/// there is a ledger. Breaks are noted unless the pointer is null.
 using BondPass = void (*)(const BondPassIn&, const BondPassHistory&, std::size_t first, std::size_t last,
                           const Scatter&, BreakNotes*);
 
-/// The feature set that will run for a scene: the one asked for, or its nearest superset that is built for
-/// the law.
+/// The feature set that will run for a scene: the one asked for, or its nearest superset that is
+/// built for the law.
 /// @throws std::invalid_argument when none is
 Features built_features(const BondLaw& law, const Features& asked, const LoopKind& kind = {});
 

@@ -80,7 +80,8 @@ void contact_pass(const ContactPassIn& in, const ContactPassHistory& history, st
         pressed = true;
       } else {
         in.rotation ? release<true>(in, history, c) : release<false>(in, history, c);
-        // a pair that overlapped unbonded from the start presses at its initial distance until it has parted
+        // a pair that overlapped unbonded from the start presses at its initial distance until it
+        // has parted
         const double touch = in.radius[in.row_lo[c]] + in.radius[in.row_hi[c]];
         if (dot(l, l) >= touch * touch) history.free_length[c] = touch;  // (B31)
       }

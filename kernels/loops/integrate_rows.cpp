@@ -1,5 +1,6 @@
-// The integration of free particles, compiled once per instruction set like the bond pass. A particle's force
-// and torque, velocity and spin go through the same operations, so they go side by side.
+// The integration of free particles, compiled once per instruction set like the bond pass. A
+// particle's force and torque, velocity and spin go through the same operations, so they go side by
+// side.
 #include "kernels/loops/integrate.hpp"
 #include "kernels/math/four.hpp"
 

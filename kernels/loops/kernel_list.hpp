@@ -1,6 +1,6 @@
-// The kernels that are built per instruction set: each law for each of its feature sets, in the order of
-// bond_laws.hpp; once more with the energy ledger for the fullest of them; and the Dempack law with all that
-// it has in mixed precision, with and without the ledger.
+// The kernels that are built per instruction set: each law for each of its feature sets, in the
+// order of bond_laws.hpp; once more with the energy ledger for the fullest of them; and the Dempack
+// law with all that it has in mixed precision, with and without the ledger.
 #pragma once
 #include <array>
 #include <cstddef>

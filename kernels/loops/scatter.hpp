@@ -24,8 +24,8 @@ struct ForceBuffer {
 };
 
 /// Where a range of bonds may add its forces.
-/// own:     plain adds to rows `to_lo`, `to_hi` that no other range touches (particles, or the range's own
-///          sums) (B92)
+/// own:     plain adds to rows `to_lo`, `to_hi` that no other range touches (particles, or the
+///          range's own sums) (B92)
 /// atomic:  as own, but a row with the top bit set is a particle that other ranges touch too: added
 ///          atomically (B93)
 /// column:  one load per bond, summed later in a fixed order (B94)

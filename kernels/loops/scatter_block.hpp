@@ -1,6 +1,6 @@
-// How a block of forces is added, row by row. Included by each file that adds: in the loop over bonds it is
-// compiled for the loop's own registers. Everything here has internal linkage, so that no function built for
-// wide registers can be linked into code that runs without them.
+// How a block of forces is added, row by row. Included by each file that adds: in the loop over
+// bonds it is compiled for the loop's own registers. Everything here has internal linkage, so that
+// no function built for wide registers can be linked into code that runs without them.
 #pragma once
 #include <atomic>
 

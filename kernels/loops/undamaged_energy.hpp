@@ -1,5 +1,5 @@
-// What the bonds that have no damage store, in wide registers: the same for every law. A row of a curve asks
-// for it.
+// What the bonds that have no damage store, in wide registers: the same for every law. A row of a
+// curve asks for it.
 #pragma once
 #include <span>
 

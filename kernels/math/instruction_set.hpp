@@ -14,8 +14,8 @@ constexpr const T& built_for(InstructionSet set, const T& x86_64, const T& x86_6
   return set == InstructionSet::x86_64 ? x86_64 : set == InstructionSet::x86_64_v3 ? x86_64_v3 : x86_64_v4;
 }
 
-/// The widest set that this processor runs, or the one that the environment's BRECCIA_INSTRUCTION_SET names:
-/// with x86-64 every processor computes the same bits.
+/// The widest set that this processor runs, or the one that the environment's
+/// BRECCIA_INSTRUCTION_SET names: with x86-64 every processor computes the same bits.
 /// @throws std::invalid_argument when the processor does not have it
 InstructionSet best_instruction_set();
 

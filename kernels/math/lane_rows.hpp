@@ -1,6 +1,6 @@
-// Rows of three numbers in memory, columns of them in wide registers: how a batch fetches what its ends do,
-// and hands back one row of force for each bond. A row is 32 bytes long and so aligned (Vec3): one load,
-// never across two cache lines. Included by files that are compiled per
+// Rows of three numbers in memory, columns of them in wide registers: how a batch fetches what its
+// ends do, and hands back one row of force for each bond. A row is 32 bytes long and so aligned
+// (Vec3): one load, never across two cache lines. Included by files that are compiled per
 // instruction set only.
 #pragma once
 #include <bit>
@@ -29,7 +29,8 @@ using Register [[gnu::vector_size(8 * width)]] = double;  // a column over the b
 template <class RowOf>
 [[gnu::always_inline]] inline Vec<Lanes> columns_of(const RowOf& row_of) {
 #if defined(__AVX512F__)
-  // pairs of rows (0,2), (1,3), (4,6), (5,7): neighbours are interleaved first, then quarters put in order
+  // pairs of rows (0,2), (1,3), (4,6), (5,7): neighbours are interleaved first, then quarters put
+  // in order
   const Register a = joined(row_of(0), row_of(2)), b = joined(row_of(1), row_of(3)),
                  c = joined(row_of(4), row_of(6)), d = joined(row_of(5), row_of(7));
   const Register xz_low = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
@@ -58,7 +59,8 @@ template <class RowOf>
 #endif
 }
 
-/// The columns of a batch as rows, `stride` of them apart, the way back; what fills a row up is zero.
+/// The columns of a batch as rows, `stride` of them apart, the way back; what fills a row up is
+/// zero.
 [[gnu::always_inline]] inline void store_rows(const Vec<Lanes>& v, Vec3* rows, std::size_t stride) {
 #if defined(__AVX512F__)
   const auto x = std::bit_cast<Register>(v.x), y = std::bit_cast<Register>(v.y),

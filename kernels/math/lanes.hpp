@@ -1,5 +1,6 @@
-// The few operations a law needs that differ between one number and a wide register of them. A law is written
-// once, over a number type R: double in tests, std::experimental::simd in the production loop.
+// The few operations a law needs that differ between one number and a wide register of them. A law
+// is written once, over a number type R: double in tests, std::experimental::simd in the production
+// loop.
 #pragma once
 #include <cmath>
 #include <type_traits>
@@ -49,8 +50,8 @@ inline R square_root(const R& a) {
   return sqrt(a);
 }
 
-/// 1/x, to an ulp; without a division where every lane is within 1e-4 of 1. A lane's value does not depend on
-/// its neighbours.
+/// 1/x, to an ulp; without a division where every lane is within 1e-4 of 1. A lane's value does not
+/// depend on its neighbours.
 template <class R>
 inline R inverse_near_one(const R& x) {
   const R one(1.0), e = one - x, e2 = e * e;
@@ -70,8 +71,8 @@ inline R inverse_root_near_one(const R& x) {
   return y;
 }
 
-/// exp(x) for |x| of a few, to some units in the last place: Taylor's series of x/16, squared four times. No
-/// call to the maths library, so it stays in the register.
+/// exp(x) for |x| of a few, to some units in the last place: Taylor's series of x/16, squared four
+/// times. No call to the maths library, so it stays in the register.
 template <class R>
 inline R exponential(const R& x) {
   const R y = R(1.0 / 16.0) * x;

@@ -1,4 +1,5 @@
-// Values at a fixed distance in memory: one quantity of rows that lie together with others in records.
+// Values at a fixed distance in memory: one quantity of rows that lie together with others in
+// records.
 #pragma once
 #include <cstddef>
 #include <iterator>

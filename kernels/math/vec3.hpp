@@ -5,8 +5,9 @@
 
 namespace breccia {
 
-/// Three components of any number type: `Vec<double>` for one particle, `Vec<simd>` for a batch of them. One
-/// of doubles fills 32 bytes and is so aligned: it is one load, and never lies across two lines of the cache.
+/// Three components of any number type: `Vec<double>` for one particle, `Vec<simd>` for a batch of
+/// them. One of doubles fills 32 bytes and is so aligned: it is one load, and never lies across two
+/// lines of the cache.
 template <class R>
 struct alignas(std::is_same_v<R, double> ? 32 : alignof(R)) Vec {
   R x{}, y{}, z{};

@@ -22,7 +22,8 @@ struct NearestPoint {
   bool on_rim = false;  ///< on an edge or corner of a triangle
 };
 
-/// Ericson, Real-Time Collision Detection (2005), section 5.1.5: by the region of the corner, edge or face.
+/// Ericson, Real-Time Collision Detection (2005), section 5.1.5: by the region of the corner, edge
+/// or face.
 inline NearestPoint nearest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const double d1 = dot(ab, ap), d2 = dot(ac, ap);
@@ -41,7 +42,8 @@ inline NearestPoint nearest_on_triangle(const Vec3& a, const Vec3& b, const Vec3
   return {a + (vb * share) * ab + (vc * share) * ac, false};
 }
 
-/// The point of a wall nearest to `x`. On a cylinder's axis every point of a circle is: one of them.
+/// The point of a wall nearest to `x`. On a cylinder's axis every point of a circle is: one of
+/// them.
 inline NearestPoint nearest_on_wall(const Wall& wall, const Vec3& x) {
   const Vec3 from = x - wall.point;
   const double along = dot(from, wall.direction);
@@ -62,8 +64,8 @@ inline NearestPoint nearest_on_wall(const Wall& wall, const Vec3& x) {
   return nearest_on_triangle(wall.point, wall.second, wall.third, x);
 }
 
-/// How far a place is from a wall on the side where particles may be, m: negative behind a plane or outside a
-/// cylinder; a triangle has two good sides.
+/// How far a place is from a wall on the side where particles may be, m: negative behind a plane or
+/// outside a cylinder; a triangle has two good sides.
 inline double clearance(const Wall& wall, const Vec3& x) {
   const Vec3 from = x - wall.point;
   const double along = dot(from, wall.direction);

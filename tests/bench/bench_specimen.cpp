@@ -1,7 +1,8 @@
 // Reading a specimen, and checking it: the time must grow as the number of spheres does, not as its
 // square. Run from a quiet machine:
 //   build/bin/bench_specimen
-// The last two lines of each give the growth that fits best: N, or N lg N where something is sorted.
+// The last two lines of each give the growth that fits best: N, or N lg N where something is
+// sorted.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>

@@ -1,8 +1,8 @@
 // Microbenchmarks of the step and its parts. Run from a quiet machine:
 //   build/bin/bench_step --benchmark_filter=pass --benchmark_repetitions=5
-// Arguments in the names: thousands of spheres, threads, state of the bonds. items_per_second counts bonds
-// (particles for `integrate`); `best_ns` is the fastest single pass, nanoseconds per item, which other work
-// on the machine disturbs least.
+// Arguments in the names: thousands of spheres, threads, state of the bonds. items_per_second
+// counts bonds (particles for `integrate`); `best_ns` is the fastest single pass, nanoseconds per
+// item, which other work on the machine disturbs least.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -33,7 +33,8 @@ const Specimen& packing(std::size_t spheres) {
   return at->second;
 }
 
-/// 0: intact. 1: of the bonds a tenth yields in compression, a twentieth is damaged, a twentieth broken.
+/// 0: intact. 1: of the bonds a tenth yields in compression, a twentieth is damaged, a twentieth
+/// broken.
 void put_into_state(World& w, int state) {
   BondTable& b = w.bonds;
   std::uint64_t random = 1;

@@ -5,7 +5,7 @@ import re
 import subprocess
 import unittest
 
-from programs import BIN, SOURCE, run
+from programs import BIN, SOURCE, main, run
 
 TESTS = "ucs triaxial bts usc hydrostatic tension shear biaxial".split()
 
@@ -59,4 +59,4 @@ class CaseReference(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

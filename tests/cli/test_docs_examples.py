@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 
 from docs_pages import blocks, code_words, headings, links, pages, programs_of
-from programs import BIN, SOURCE, run
+from programs import BIN, HANG, SOURCE, main, run
 
 CASE_OF_ITS_OWN = {"impact"}
 OTHER_OPTIONS = {"--allow-run-as-root", "--oversubscribe", "--bind-to", "--map-by", "--interleave"}  # of mpirun and numactl
@@ -119,7 +119,7 @@ class Examples(unittest.TestCase):
                 path.write_text(block.text)
             elif block.kind in {"sh", "python"} and block.skipped is None:
                 words = ["bash", "-euo", "pipefail", "-c", block.command()] if block.kind == "sh" else ["python3", "-c", block.text]
-                ended = subprocess.run(words, cwd=work, capture_output=True, text=True, timeout=600)
+                ended = subprocess.run(words, cwd=work, capture_output=True, text=True, timeout=HANG)
                 self.assertEqual(ended.returncode, 0, f"{block.place}: {shlex.join(words[-1:])}\n{ended.stdout}\n{ended.stderr}")
 
 
@@ -192,4 +192,4 @@ class Links(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -7,7 +7,7 @@ import subprocess
 import unittest
 from pathlib import Path
 
-from programs import SOURCE
+from programs import SOURCE, main
 
 FLOORS = ["kernels", "core", "io", "drivers"]  # lowest first
 MOST_FILES = 25  # of a room
@@ -104,4 +104,4 @@ class House(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -3,7 +3,7 @@
 import re
 import unittest
 
-from programs import SOURCE
+from programs import SOURCE, main
 
 MODEL = SOURCE / "docs" / "model.md"
 CODE = ("kernels", "core", "io", "drivers", "tests/reference")  # where each tag of the specification must be found
@@ -83,4 +83,4 @@ class ModelTags(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -5,9 +5,8 @@ import json
 import os
 import re
 import subprocess
-import unittest
 
-from programs import BIN, SOURCE, ProgramTest, run
+from programs import BIN, SOURCE, ProgramTest, main, run
 
 CYLINDER = """[specimen]
 shape = "cylinder"
@@ -126,4 +125,4 @@ class InstructionSets(ProgramTest):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -49,7 +49,7 @@ class Ucs(ProgramTest):
         self.assertEqual(sorted("frames/" + entry.get("file") for entry in listed), frames)
 
     def test_report(self):
-        for word in ("300 spheres", "bonds", "alpha", "peak", "MPa", "time", "summary.json", "run-K.pvd"):
+        for word in ("300 spheres", "bonds", "alpha", "peak", "MPa", "time", "summary.json", "run-0.pvd"):
             self.assertIn(word, self.result.stdout)
 
     def test_summary(self):

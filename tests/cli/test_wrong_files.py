@@ -10,17 +10,16 @@ import shutil
 import signal
 import socket
 import subprocess
-import time
 import unittest
 
-from programs import BIN, SOURCE, UCS, ProgramTest, run, tree
+from programs import BIN, HANG, SOURCE, UCS, ProgramTest, command, finish, main, run, tree
 
 LIST = ".breccia-files"
 SHORT = UCS.replace("stop_strain = 0.006", "stop_strain = 0.0002")
-# the first run ends soon, the second one not before it is told to
+# the first run ends soon; the second one makes a checkpoint at every row, and has not ended when it is stopped
 SERIES = UCS.replace("stop_strain = 0.006", 'confinement = ["0 MPa", "20 MPa"]\nstop_strain = 0.5\nstop_after_peak = 0.2\nplaten_speed = "0.4 m/s"')
 SERIES = SERIES.replace("frames = 3", 'frames = 0\n[run]\nscatter = "gather"')
-ENDLESS = SERIES.replace('["0 MPa", "20 MPa"]', '["20 MPa"]') + 'checkpoint_every = "10 ms"\n'
+ENDLESS = SERIES.replace('["0 MPa", "20 MPa"]', '["20 MPa"]') + 'checkpoint_every = "1 us"\n'
 
 
 def sha256(path):
@@ -34,31 +33,25 @@ class WrongFiles(ProgramTest):
     def triaxial(self, *options):
         return run("triaxial", self.case, "--out", self.out, "--threads", "1", *options)
 
-    def interrupted(self, case, after, size=1):
-        """A series that was told to stop once a file was there, and as long: the run that it is in would not end by itself."""
-        self.case = self.write("case.toml", case)
-        process = subprocess.Popen([BIN / "breccia-triaxial", self.case, "--out", self.out, "--threads", "1", "--quiet"])
-        self.addCleanup(process.kill)
-        self.wait_for(process, after, size)
+    def hold(self, point, *options):
+        """A series that waits at a point of its way."""
+        return self.start_and_hold(point, *command("triaxial", self.case, "--out", self.out, "--threads", "1", *options))
+
+    def stop(self, process):
         process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.wait(timeout=100), 130)
+        out, errors = finish(process)
+        self.assertEqual((process.returncode, errors), (130, ""))
+        return out
+
+    def interrupted(self, case, point):
+        """A series that was told to stop at a point of its way."""
+        self.case = self.write("case.toml", case)
+        self.stop(self.hold(point, "--quiet"))
         return tree(self.out)
 
-    def wait_for(self, process, name, size=1):
-        path = self.out / name
-        while not (path.exists() and path.stat().st_size >= size):
-            self.assertIsNone(process.poll(), "the run ended by itself")
-            time.sleep(0.01)
-
     def go_on_and_stop(self):
-        """--resume, told to stop as soon as it says that it goes on."""
-        process = subprocess.Popen([BIN / "breccia-triaxial", self.case, "--out", self.out, "--threads", "1", "--resume"],
-                                   stdout=subprocess.PIPE, text=True)
-        self.addCleanup(process.stdout.close)
-        self.addCleanup(process.kill)
-        self.assertTrue(any("goes on from step" in line for line in process.stdout))
-        process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.wait(timeout=100), 130)
+        """--resume, told to stop after its first row."""
+        self.assertIn("goes on from step", self.stop(self.hold("row:1", "--resume")))
 
 
 class Changes(WrongFiles):
@@ -74,7 +67,7 @@ class Changes(WrongFiles):
         specimen.write_text("\n".join([head, *map(",".join, fields)]) + "\n")
 
     def test_specimen_of_a_run_that_was_interrupted(self):
-        before = self.interrupted(ENDLESS, "checkpoint.h5")
+        before = self.interrupted(ENDLESS, "row:3")
         good = (self.work / "specimen.csv").read_bytes()
         for factor, columns in ((1.0001, (1, 2, 3, 4)), (0.999, (4,)), (1.0000001, (1,))):
             self.scale(factor, columns)
@@ -125,7 +118,7 @@ class Changes(WrongFiles):
                             "pack.toml:4", "specimen.sha256")
 
     def test_files_of_finished_runs(self):
-        before = self.interrupted(SERIES, "summary.json")
+        before = self.interrupted(SERIES, "run:1")
         runs = json.loads(before["summary.json"])["runs"]
         self.assertEqual(runs[0]["files"], {name: sha256(self.out / name) for name in ("curve-0.csv", "cracks-0.csv")})
         for name in ("curve-0.csv", "cracks-0.csv"):
@@ -163,7 +156,7 @@ class Changes(WrongFiles):
         ids = [2**64 - 1 - 2 * k for k in range(len(rows))]
         (self.work / "specimen.csv").write_text("\n".join([head] + [f"{one},{row.split(',', 1)[1]}" for one, row in zip(ids, rows)]) + "\n")
         case = SERIES.replace('["0 MPa", "20 MPa"]', '["0 MPa"]').replace("stop_after_peak = 0.2", "stop_after_peak = 0")
-        before = self.interrupted(case, "cracks-0.csv", 2000)
+        before = self.interrupted(case, "crack:20")
         self.go_on_and_stop()
         text = (self.out / "cracks-0.csv").read_bytes()
         self.assertTrue(text.startswith(before["cracks-0.csv"]))
@@ -189,14 +182,11 @@ class Folders(WrongFiles):
 
     def test_a_run_holds_its_folder(self):
         self.case = self.write("case.toml", ENDLESS)
-        process = subprocess.Popen([BIN / "breccia-triaxial", self.case, "--out", self.out, "--threads", "1", "--quiet"])
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        self.wait_for(process, "checkpoint.h5")
+        process = self.hold("checkpoint:1", "--quiet")
         for option in ("--force", "--resume"):
             self.check_one_line(self.triaxial(option), 2, "another run is writing there")
         process.kill()
-        process.wait()
+        finish(process)
         self.assertEqual(self.ucs("--force").returncode, 0)  # the lock went with the run
 
     def test_own_input_is_kept(self):
@@ -305,18 +295,18 @@ class NoFiles(WrongFiles):
     def test_cases(self):
         for path, what in self.kinds("case.toml"):
             for program in ("ucs", "impact", "pack", "workprecision"):
-                self.check_one_line(run(program, path, "--out", self.out, timeout=20), 2, path, what)
+                self.check_one_line(run(program, path, "--out", self.out), 2, path, what)
 
     def test_specimens(self):
         for path, what in self.kinds("other.csv"):
-            self.check_one_line(run("ucs", self.write("ucs.toml", UCS.replace("specimen.csv", "other.csv")), "--out", self.out, timeout=20), 2,
+            self.check_one_line(run("ucs", self.write("ucs.toml", UCS.replace("specimen.csv", "other.csv")), "--out", self.out), 2,
                                 "ucs.toml:2", "specimen.file", "other.csv", what)
         self.assertFalse(self.out.exists())
 
     def test_presets(self):
         (self.work / "materials").mkdir()
         for path, what in self.kinds("materials/mine.toml"):
-            result = run("ucs", self.write("ucs.toml", UCS.replace('"concrete"', '"mine"')), "--out", self.out, timeout=20)
+            result = run("ucs", self.write("ucs.toml", UCS.replace('"concrete"', '"mine"')), "--out", self.out)
             self.check_one_line(result, 2, "mine", what)
 
     def test_results(self):
@@ -324,15 +314,15 @@ class NoFiles(WrongFiles):
             self.out.mkdir()
             (self.out / "frames").mkdir()
             os.mkfifo(self.out / name)
-            self.check_one_line(self.ucs("--force", timeout=20), 2, name, "breccia did not write it")
+            self.check_one_line(self.ucs("--force"), 2, name, "breccia did not write it")
             shutil.rmtree(self.out)
         self.out.mkdir()
         for name in ("checkpoint.h5", "summary.json"):
             os.mkfifo(self.out / name)
-            self.check_one_line(self.ucs("--resume", timeout=20), 2, name)
+            self.check_one_line(self.ucs("--resume"), 2, name)
             (self.out / name).unlink()
         os.mkfifo(self.out / LIST)
-        self.check_one_line(self.ucs(timeout=20), 4, LIST)
+        self.check_one_line(self.ucs(), 4, LIST)
 
     def test_a_place_that_is_no_utf_8(self):
         folder = os.fsencode(self.work) + b"/bad\xff"
@@ -403,7 +393,7 @@ class Messages(WrongFiles):
         def launch(*words):
             root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
             return subprocess.run(["mpirun", "-n", "3", "--oversubscribe", "--bind-to", "none", BIN / "breccia-triaxial", *words],
-                                  capture_output=True, text=True, env=os.environ | root, timeout=100)
+                                  capture_output=True, text=True, env=os.environ | root, timeout=HANG)
 
         result = launch(self.case, "--nonsense")
         self.assertEqual((result.returncode, result.stderr.count("breccia-triaxial: ")), (2, 1), result.stderr)
@@ -422,14 +412,14 @@ class Limits(WrongFiles):
             result = self.triaxial("--force", "--quiet", preexec=kilobytes)
             self.check_one_line(result, 4, "File too large", "ulimit -f")
 
-    def triaxial(self, *options, preexec=None):
+    def triaxial(self, *options, preexec=None, **more):
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (preexec * 1024, preexec * 1024))
 
-        return run("triaxial", self.case, "--out", self.out, "--threads", "1", *options, preexec_fn=None if preexec is None else limit)
+        return run("triaxial", self.case, "--out", self.out, "--threads", "1", *options, preexec_fn=None if preexec is None else limit, **more)
 
     def test_the_last_checkpoint_outlives_the_limit(self):
-        before = self.interrupted(ENDLESS, "checkpoint.h5")
+        before = self.interrupted(ENDLESS, "row:3")
         limit = len(before["checkpoint.h5"]) // 2048
         self.check_one_line(self.triaxial("--resume", "--quiet", preexec=limit), 4, "File too large")
         self.assertEqual(sorted(self.out.glob("*.part")), [])
@@ -438,12 +428,11 @@ class Limits(WrongFiles):
 
     def test_nobody_reads(self):
         self.case = self.write("case.toml", ENDLESS)
-        process = subprocess.Popen([BIN / "breccia-triaxial", self.case, "--out", self.out, "--threads", "1"],
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        process.stdout.close()
-        self.assertIn("cannot write to the standard output: Broken pipe", process.stderr.read())
-        process.stderr.close()
-        self.assertEqual(process.wait(timeout=60), 4)
+        reader, writer = os.pipe()
+        os.close(reader)
+        result = self.triaxial(capture_output=False, stdout=writer, stderr=subprocess.PIPE)
+        os.close(writer)
+        self.check_one_line(result, 4, "cannot write to the standard output: Broken pipe")
         for words in (("--help",), ("--version",), (self.case, "--dry-run"), (self.case, "--explain")):
             with open("/dev/full", "w") as full:
                 self.check_one_line(run("triaxial", *words, capture_output=False, stdout=full, stderr=subprocess.PIPE), 4, "No space left")
@@ -512,4 +501,4 @@ class Limits(WrongFiles):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

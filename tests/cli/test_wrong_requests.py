@@ -4,9 +4,8 @@ import csv
 import json
 import re
 import shutil
-import unittest
 
-from programs import SOURCE, UCS, ProgramTest, run
+from programs import SOURCE, UCS, ProgramTest, main, run
 
 QUICK = ("--threads", "1", "--set", "output.frames=0")
 PACK = '[specimen]\ndiameter = "50 mm"\nheight = "100 mm"\n[specimen.pack]\nspheres = 60\nseed = 7\n'
@@ -324,4 +323,4 @@ class Files(Case):
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

@@ -6,9 +6,8 @@ import json
 import math
 import re
 import shutil
-import unittest
 
-from programs import ProgramTest, run
+from programs import ProgramTest, main, run
 
 HEADER = "id,x_m,y_m,z_m,r_m,group\n"
 TRIAXIAL = """[specimen]
@@ -293,4 +292,4 @@ class Units(Specimens):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -56,11 +56,11 @@ const Run& unconfined() {
   return r;
 }
 
-/// The virial theorem for a specimen at rest: sum of N d over the bonds is what the pressures on mantle and
-/// platens make of it, taken where they act (centres of spheres lie within the nominal body, at 500 spheres
-/// by a tenth of it). The mean bond stress is p/(alpha T), T of (B13). How much of the mantle's
-/// pressure on the rough layers, whose lateral motion is fixed, goes through bonds lies between none and all
-/// of it.
+/// The virial theorem for a specimen at rest: sum of N d over the bonds is what the pressures on
+/// mantle and platens make of it, taken where they act (centres of spheres lie within the nominal
+/// body, at 500 spheres by a tenth of it). The mean bond stress is p/(alpha T), T of (B13). How
+/// much of the mantle's pressure on the rough layers, whose lateral motion is fixed, goes through
+/// bonds lies between none and all of it.
 struct Virial {
   double bonds = 0, least = 0, most = 0;  ///< N m
 };

@@ -1,11 +1,11 @@
-// The eight impacts of Chung and Ooi, Granular Matter 13 (2011) 643-656. Closed forms: Hertz; the coefficient
-// of restitution; gross sliding, v_t' = v_t - mu (1 + e) v_n and R w' = 5/2 mu (1 + e) v_n. They take the
-// sphere as round, our arm is the centre's present distance from the wall: a spin is smaller by
-// overlap/radius, 0.5 % in test 5.
+// The eight impacts of Chung and Ooi, Granular Matter 13 (2011) 643-656. Closed forms: Hertz; the
+// coefficient of restitution; gross sliding, v_t' = v_t - mu (1 + e) v_n and R w' = 5/2 mu (1 + e)
+// v_n. They take the sphere as round, our arm is the centre's present distance from the wall: a
+// spin is smaller by overlap/radius, 0.5 % in test 5.
 //
-// Where spheres stick there is no closed form, and the paper's curves come from codes that pull at the end of
-// a damped impact. Reading error of a curve: the largest difference from the closed form where that holds (it
-// should be none).
+// Where spheres stick there is no closed form, and the paper's curves come from codes that pull at
+// the end of a damped impact. Reading error of a curve: the largest difference from the closed form
+// where that holds (it should be none).
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -49,8 +49,8 @@ ImpactRecord hit(const ImpactMaterial& m, double radius, const Vec3& v, const Ve
   return r.particles[0];
 }
 
-/// Tests 6 and 8: ratio of the contact point's speed after and before, reversed, for x = 7 mu (1 + e) V_n/(2
-/// V_t).
+/// Tests 6 and 8: ratio of the contact point's speed after and before, reversed, for x = 7 mu (1 +
+/// e) V_n/(2 V_t).
 double beta(const ImpactMaterial& m, double x, HertzForm form = HertzForm::dissipative) {
   const double radius = 0.1, normal = 0.2, slip = 3.5 * m.friction * (1 + m.restitution) * normal / x;
   const ImpactRecord p = hit(m, radius, {0, 0, -normal}, {0, -slip / radius, 0}, form);
@@ -123,9 +123,9 @@ TEST_CASE("chung-ooi 4: oblique at constant speed [gross sliding 5e-3 - digitise
     ours = std::max(ours, std::abs(-p.y - angled(angle).spin.y));
   }
   MESSAGE("spin, 1/s: reading error " << reading << ", classic " << classic << ", dissipative " << ours);
-  // the curve can be read to 0.5 % of its largest spin, 617/s; where the sphere sticks, between 5 and 25
-  // degrees, its codes are not known well enough to be met closer than 2 %, and ours, which gains no energy,
-  // lies 5 % off
+  // the curve can be read to 0.5 % of its largest spin, 617/s; where the sphere sticks, between 5
+  // and 25 degrees, its codes are not known well enough to be met closer than 2 %, and ours, which
+  // gains no energy, lies 5 % off
   CHECK(reading < 0.006 * 617);
   CHECK(classic < 0.02 * 617);
   CHECK(ours < 0.05 * 617);
@@ -165,8 +165,8 @@ TEST_CASE(
     s.duration *= 2;
     const ImpactResult r = run(s);
     CHECK(r.open_contacts == 0);
-    // equal spins slide against each other: friction turns both by the same torque and pushes them apart
-    // sideways
+    // equal spins slide against each other: friction turns both by the same torque and pushes them
+    // apart sideways
     CHECK(r.particles[0].spin.z == doctest::Approx(r.particles[1].spin.z).epsilon(1e-12));
     CHECK(r.particles[0].velocity.y == doctest::Approx(-r.particles[1].velocity.y).epsilon(1e-12));
     s.particles[1].spin = {0, 0, -spin};  // opposite spins roll on each other

@@ -122,8 +122,8 @@ TEST_CASE(
 
 TEST_CASE(
     "conservation: a cluster turned rigidly by 1 rad feels no force, to first order in the step [(B5)]") {
-  // velocities at n - 1/2 on the normal at n make slips of d dt^2/2 (w.n) w_t a step: forces in proportion to
-  // dt
+  // velocities at n - 1/2 on the normal at n make slips of d dt^2/2 (w.n) w_t a step: forces in
+  // proportion to dt
   ref::Parameters p = brittle();
   p.contact_damping = false;
   const auto turned_force = [&](int steps) {

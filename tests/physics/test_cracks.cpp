@@ -1,4 +1,5 @@
-// The record of cracks: every bond that breaks, once, when it breaks, with what it carried and let go.
+// The record of cracks: every bond that breaks, once, when it breaks, with what it carried and let
+// go.
 #include <doctest/doctest.h>
 
 #include "core/stepping/step.hpp"

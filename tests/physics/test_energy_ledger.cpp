@@ -1,4 +1,5 @@
-// The energy ledger: every channel on scenes whose answer is known, and what the balance leaves over.
+// The energy ledger: every channel on scenes whose answer is known, and what the balance leaves
+// over.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -44,7 +45,8 @@ World held_pair(const ref::Parameters& p, double dt) {
   return w;
 }
 
-/// Moves the platens apart by `distance`, m, in even steps from rest to rest, then one step at rest.
+/// Moves the platens apart by `distance`, m, in even steps from rest to rest, then one step at
+/// rest.
 void pull(World& w, double distance, int steps) {
   const double speed = distance / (steps * w.dt);
   for (int k = 0; k < steps; ++k) {
@@ -138,8 +140,9 @@ TEST_CASE("The dashpot of a pair takes up what the trapezoid says") {
 TEST_CASE(
     "An elastic specimen that is pressed and let go balances to a millionth, the better the smaller the "
     "step") {
-  // the spring along a bond balances exactly; what is left comes from the shear, whose slip is taken against
-  // the normal at the end of the step: force times elongation times turn of the bond, a first-order term
+  // the spring along a bond balances exactly; what is left comes from the shear, whose slip is
+  // taken against the normal at the end of the step: force times elongation times turn of the bond,
+  // a first-order term
   ref::Parameters p = elastic();
   p.E = 28e9;
   const Assembly a = assemble(scene::small_packing(100), scene::small_cylinder(), {}, columns_of(p), 1);

@@ -1,6 +1,6 @@
-// A close-packed lattice of discs is an isotropic plane whose E and nu follow exactly from k_n and k_s:
-// Tavarez and Plesha, Int. J. Numer. Meth. Engng 70 (2007) 379-404, as in Santasusana's thesis, eqs. 5.5
-// and 5.6.
+// A close-packed lattice of discs is an isotropic plane whose E and nu follow exactly from k_n and
+// k_s: Tavarez and Plesha, Int. J. Numer. Meth. Engng 70 (2007) 379-404, as in Santasusana's
+// thesis, eqs. 5.5 and 5.6.
 #include <doctest/doctest.h>
 
 #include "core/stepping/step.hpp"
@@ -25,7 +25,8 @@ std::vector<scene::Ball> lattice(int half) {
   return balls;
 }
 
-/// Pa; stress of the disc in the middle after the lattice has been deformed evenly through the bond pass.
+/// Pa; stress of the disc in the middle after the lattice has been deformed evenly through the bond
+/// pass.
 Stress stress_at(double e_x, double e_z, double E, double nu) {
   const auto balls = lattice(4);
   const Features features = ContactBondLaw::feature_sets[0];

@@ -1,4 +1,5 @@
-// Another code's bond in shear, as its own regression file has it, up to where that code goes wrong.
+// Another code's bond in shear, as its own regression file has it, up to where that code goes
+// wrong.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -63,7 +64,8 @@ TEST_CASE(
   CHECK(times[peak] == doctest::Approx(1.91e-5).epsilon(1e-3));  // tau_f A/(k_s v) = 1.9098e-5 s
   double rising = 0, falling = 0;
   for (std::size_t k = 0; k < peak; ++k) rising = std::max(rising, std::abs(ours[k] - theirs[k]) / strength);
-  // that code takes its damage from the next displacement: its falling branch is ours, one step early
+  // that code takes its damage from the next displacement: its falling branch is ours, one step
+  // early
   for (std::size_t k = peak; times[k] < 3.8e-5; ++k)
     falling = std::max(falling, std::abs(ours[k + 1] - theirs[k]) / strength);
   CHECK(rising < 1e-4);

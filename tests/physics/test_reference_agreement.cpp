@@ -1,5 +1,5 @@
-// A small specimen torn to pieces by the fast code and by the slow reference: the same pieces in the same
-// places.
+// A small specimen torn to pieces by the fast code and by the slow reference: the same pieces in
+// the same places.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -20,8 +20,8 @@ constexpr int steps = 200;
 /// Every ninth sphere bonds with nobody: contacts from the start, some of them overlapping.
 int group_of(Gid id) { return id % 9 == 0 ? 0 : 1; }
 
-/// Crushed between platens, twisted and shaken: everything happens within 200 steps. Spins stay below 1e-4 a
-/// step, where the turn about the normal that the fast code makes (B5) is that of the
+/// Crushed between platens, twisted and shaken: everything happens within 200 steps. Spins stay
+/// below 1e-4 a step, where the turn about the normal that the fast code makes (B5) is that of the
 /// reference to 1e-13.
 struct Torn {
   ref::Parameters parameters;

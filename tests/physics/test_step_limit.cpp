@@ -1,5 +1,5 @@
-// Runs just below the limit stay bounded, runs just beyond it blow up: 60 spheres, elastic bonds, each
-// scheme.
+// Runs just below the limit stay bounded, runs just beyond it blow up: 60 spheres, elastic bonds,
+// each scheme.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -89,8 +89,9 @@ TEST_CASE("step limit: bounded over 1e5 steps at 0.99 of it, blown up at 1.02, w
   }
 }
 
-// global damping, which is not linear, holds a growth back that is slow enough: with explicit dashpots and
-// spheres that turn, the one at 1.02. (1 + alpha) lambda <= 1 is enough for stability, and sharp to 3 %
+// global damping, which is not linear, holds a growth back that is slow enough: with explicit
+// dashpots and spheres that turn, the one at 1.02. (1 + alpha) lambda <= 1 is enough for stability,
+// and sharp to 3 %
 TEST_CASE("step limit: with global damping bounded at 0.99 of it and blown up at 1.03") {
   for (const bool rotation : {true, false})
     for (const DampingScheme scheme : schemes) {

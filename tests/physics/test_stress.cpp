@@ -1,5 +1,5 @@
-// Stresses from forces, against what acts on the specimen from outside; nearness to failure of single bonds;
-// a specimen in a rigid sleeve.
+// Stresses from forces, against what acts on the specimen from outside; nearness to failure of
+// single bonds; a specimen in a rigid sleeve.
 #include <doctest/doctest.h>
 
 #include "core/stepping/step.hpp"
@@ -23,7 +23,8 @@ ref::Parameters elastic() {
   return p;
 }
 
-/// Compressed by 1e-4 of its height, then left until it rests: kinetic under 1e-12 of stored energy.
+/// Compressed by 1e-4 of its height, then left until it rests: kinetic under 1e-12 of stored
+/// energy.
 World compressed(const ref::Parameters& p, std::size_t spheres, bool rough, bool sleeve) {
   WorldOptions o = scene::options(p);
   o.rough_platens = rough, o.rigid_skin = sleeve, o.threads = 2;
@@ -47,8 +48,8 @@ void hold(const Vec3& a, const Vec3& b, double tolerance) {
   CHECK(norm(a - b) < tolerance);
 }
 
-/// What holds a specimen at rest, times where it acts: V sigma, Love's formula. The held particles are pushed
-/// by the opposite of what their bonds make.
+/// What holds a specimen at rest, times where it acts: V sigma, Love's formula. The held particles
+/// are pushed by the opposite of what their bonds make.
 Stress love(const World& w, const std::vector<Vec3>& from_outside) {
   Stress s;
   for (std::size_t k = 0; k < w.particles.size; ++k) {

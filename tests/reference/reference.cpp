@@ -81,8 +81,8 @@ Kinematics kinematics(const Particle& i, const Particle& j, double dt) {
   return k;
 }
 
-// A tangential vector of one step ago follows the pair: the smallest rotation that takes n0 to n, then the
-// twist.
+// A tangential vector of one step ago follows the pair: the smallest rotation that takes n0 to n,
+// then the twist.
 Vec3 carry(const Vec3& F, const Kinematics& k) {
   const Vec3 tilted = F - (dot(F, k.n) / (1 + dot(k.n0, k.n))) * (k.n0 + k.n);  // (B5)
   return std::cos(k.twist) * tilted + std::sin(k.twist) * cross(k.n, tilted);
@@ -138,7 +138,8 @@ double tension(const Parameters& p, Bond& b, double u_e) {
   return b.k_n * u_e * g(b.D_n, b.delta_n);  // (P46)
 }
 
-// Shear on its own. F_s is the undamaged trial k_s u, so u/u_l is |F_s|/S. Returns the force that acts.
+// Shear on its own. F_s is the undamaged trial k_s u, so u/u_l is |F_s|/S. Returns the force that
+// acts.
 Vec3 shear(const Parameters& p, Bond& b, double F_n) {
   const double N = std::max(-F_n, 0.0);
   const double R = p.mu2 * N;  // (P45)
@@ -158,9 +159,9 @@ Vec3 shear(const Parameters& p, Bond& b, double F_n) {
   return g(b.D_s, b.delta_s) * b.F_s;
 }
 
-// The coupled criterion for an open bond: one damage for both forces. a and b are the shares of tension and
-// shear. F_s is the undamaged k_s u, so opening alone changes the mixture of the deltas but never the shear
-// displacement.
+// The coupled criterion for an open bond: one damage for both forces. a and b are the shares of
+// tension and shear. F_s is the undamaged k_s u, so opening alone changes the mixture of the deltas
+// but never the shear displacement.
 void coupled_tension(const Parameters& p, Bond& bond, double u_e) {
   const double a = bond.k_n * u_e / (p.sigma_t * bond.area);
   const double b = norm(bond.F_s) / (p.tau_f * bond.area);

@@ -66,7 +66,8 @@ struct Bond {
   Vec3 shear_force;         ///< what acts: g(D) F_s while intact, F_s once broken
 };
 
-/// An unbonded pair. The record lives from first touch (or from the start) until the spheres have parted.
+/// An unbonded pair. The record lives from first touch (or from the start) until the spheres have
+/// parted.
 struct Contact {
   double free_length = 0;  ///< r_i + r_j, or the initial distance of a pair that overlapped then
   Vec3 F_s;
@@ -88,7 +89,8 @@ Particle sphere(const Parameters&, std::int64_t id, double radius, Vec3 x, int g
 /// A new bond between two particles at rows i and j; the order of the ends does not matter.
 Bond make_bond(const Parameters&, const std::vector<Particle>&, std::size_t i, std::size_t j);
 
-/// Bonds every pair of one group within reach, and gives unbonded overlaps their stress-free length.
+/// Bonds every pair of one group within reach, and gives unbonded overlaps their stress-free
+/// length.
 void make_bonds(World&);
 
 /// The law of one bond: its history and forces (without damping) at stretch u.
@@ -105,8 +107,8 @@ void compute_forces(World&, double dt);
 /// compute_forces, global damping, kick, drift.
 void step(World&, double dt);
 
-/// A place on a prescribed path of one bond along x: stretch d - d0, and tangential displacement of j against
-/// i.
+/// A place on a prescribed path of one bond along x: stretch d - d0, and tangential displacement of
+/// j against i.
 struct PathPoint {
   double u = 0, y = 0, z = 0;
 };
@@ -114,8 +116,8 @@ struct PathPoint {
 /// The bond after each point of the path, which starts at {0, 0, 0}.
 std::vector<Bond> bond_path(const Parameters&, Bond, std::span<const PathPoint>);
 
-/// Sets positions (end of step), velocities and spins of a pair along x so that one step goes from one point
-/// to the next.
+/// Sets positions (end of step), velocities and spins of a pair along x so that one step goes from
+/// one point to the next.
 void place_pair(const Bond&, const PathPoint& from, const PathPoint& to, double dt, Particle& i, Particle& j);
 
 }  // namespace breccia::reference

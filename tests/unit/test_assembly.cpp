@@ -1,5 +1,5 @@
-// What an assembly is made of: areas of the strengths beside those of the stiffness, bonds without a face,
-// the bodies that the loading holds, a disc that is stood up.
+// What an assembly is made of: areas of the strengths beside those of the stiffness, bonds without
+// a face, the bodies that the loading holds, a disc that is stood up.
 #include <doctest/doctest.h>
 
 #include "core/bonding/bond_area.hpp"

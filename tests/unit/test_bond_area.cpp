@@ -1,4 +1,5 @@
-// Areas of bonds and of the mantle: closed forms on lattices, and what must add up on random packings.
+// Areas of bonds and of the mantle: closed forms on lattices, and what must add up on random
+// packings.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -81,8 +82,8 @@ Assembly face_centred(int n, double r) {
   return bonded(balls, {Shape::box, edge, edge, edge});
 }
 
-/// Rows of discs of radius r, every other row moved by r, in a box that holds them just. jitter: of centres
-/// and radii, over r.
+/// Rows of discs of radius r, every other row moved by r, in a box that holds them just. jitter: of
+/// centres and radii, over r.
 Assembly hexagonal(int across, int rows, double r, double jitter = 0, double beta = 0.05) {
   std::vector<scene::Ball> balls;
   Random random(7);
@@ -397,7 +398,8 @@ TEST_CASE("voronoi cells: a nested sphere may have none and a centre outside mov
                       {Shape::box, 0.02, 0.02, 0.02});
   VoronoiCells c = cells(a);
   CHECK(sum(c.volume) == Approx(8e-6).epsilon(1e-12));
-  // the radical plane of 1 and 2 lies 9 mm beyond 1, 1 mm short of the wall: 2 keeps the corner behind it
+  // the radical plane of 1 and 2 lies 9 mm beyond 1, 1 mm short of the wall: 2 keeps the corner
+  // behind it
   CHECK(c.volume[1] > 0.0);
   a.body.diameter = 0.016;
   c = cells(a);

@@ -1,5 +1,6 @@
-// One pass over the bonds, for every feature set and instruction set that is built: against the reference's
-// pair update, and without a difference of one bit where a difference would have no meaning.
+// One pass over the bonds, for every feature set and instruction set that is built: against the
+// reference's pair update, and without a difference of one bit where a difference would have no
+// meaning.
 #include <doctest/doctest.h>
 
 #include <numeric>
@@ -30,7 +31,8 @@ struct Kernel {
   Features features;
   ref::Criterion criterion;
 };
-/// All of them; a Mohr-Coulomb scene runs in the uncoupled kernels, with a line that falls in tension too.
+/// All of them; a Mohr-Coulomb scene runs in the uncoupled kernels, with a line that falls in
+/// tension too.
 std::vector<Kernel> kernels() {
   std::vector<Kernel> all;
   for (const Features& f : DempackLaw::feature_sets) {

@@ -1,4 +1,5 @@
-// The laws of KDEM and of the contact bond: stiffnesses, strengths, friction; what the world makes of them.
+// The laws of KDEM and of the contact bond: stiffnesses, strengths, friction; what the world makes
+// of them.
 #include <doctest/doctest.h>
 
 #include "core/bonding/law_of_material.hpp"

@@ -1,5 +1,5 @@
-// A run that is taken up from a checkpoint in a world made anew: the same bits to the end, in every form of the
-// loop; and the pieces that this stands on.
+// A run that is taken up from a checkpoint in a world made anew: the same bits to the end, in every
+// form of the loop; and the pieces that this stands on.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -92,7 +92,8 @@ void check_equal(const Outcome& a, const Outcome& b) {
   }
 }
 
-/// Runs to the end; then again, stopped at the n-th chance and taken up in a world made anew, at each n given.
+/// Runs to the end; then again, stopped at the n-th chance and taken up in a world made anew, at
+/// each n given.
 void check_variant(const Variant& v, const std::vector<int>& stops, int threads_after) {
   INFO(v.name);
   Outcome whole;

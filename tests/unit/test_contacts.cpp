@@ -1,5 +1,5 @@
-// Contacts between surfaces that were never bonded: found before they can overlap, kept while they last, and
-// never made of what is bonded.
+// Contacts between surfaces that were never bonded: found before they can overlap, kept while they
+// last, and never made of what is bonded.
 #include <doctest/doctest.h>
 
 #include <map>

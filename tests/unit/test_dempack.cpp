@@ -1,6 +1,6 @@
-// The law of a bond as the production loop runs it, one number at a time and in wide registers whose lanes
-// carry different bonds: against closed forms of docs/model.md, and against the reference on random
-// paths.
+// The law of a bond as the production loop runs it, one number at a time and in wide registers
+// whose lanes carry different bonds: against closed forms of docs/model.md, and against the
+// reference on random paths.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -40,7 +40,8 @@ struct Claim {
   double scale;  ///< N
 };
 
-/// Runs all claims together, in every kind of register and with the claims in other lanes each time.
+/// Runs all claims together, in every kind of register and with the claims in other lanes each
+/// time.
 template <Features features>
 void hold(const Parameters& p, std::vector<Claim> claims) {
   const auto with = [&]<class R>(const std::string& name, R) {
@@ -94,8 +95,8 @@ Path along(const Path& corners, int steps) {
   return path;
 }
 
-/// Stretches as the difference of a distance and d0 can be: the law is not blamed for the rounding of the
-/// distance.
+/// Stretches as the difference of a distance and d0 can be: the law is not blamed for the rounding
+/// of the distance.
 Path representable(const Bond& b, Path path) {
   for (PathPoint& q : path) q.u = (b.d0 + q.u) - b.d0;
   return path;
@@ -138,8 +139,8 @@ void add_compression(const Parameters& p, std::vector<Claim>& claims) {
   REQUIRE(three_slopes(p, 0.06) > p.LCS[2]);
 }
 
-/// Loading, unloading, reloading, through zero, softening in tension from the plastic stretch, secant
-/// unloading.
+/// Loading, unloading, reloading, through zero, softening in tension from the plastic stretch,
+/// secant unloading.
 void add_plastic_then_tension(const Parameters& p, std::vector<Claim>& claims) {
   for (const Bond& b : several_bonds(p)) {
     const double L = length_of(p, b), deep = -0.008 * L, u_l = stretch_limit(p, b);
@@ -169,8 +170,8 @@ void add_plastic_then_tension(const Parameters& p, std::vector<Claim>& claims) {
   }
 }
 
-/// Damage in tension, full stiffness when closed, the damage still there when opened again, then broken for
-/// good.
+/// Damage in tension, full stiffness when closed, the damage still there when opened again, then
+/// broken for good.
 void add_damage_compression_tension(const Parameters& p, std::vector<Claim>& claims) {
   for (const Bond& b : several_bonds(p)) {
     const double u_l = stretch_limit(p, b), d = b.delta_n;
@@ -191,7 +192,8 @@ void add_damage_compression_tension(const Parameters& p, std::vector<Claim>& cla
   }
 }
 
-/// Shear under constant pressure: branch, secant unloading, the Coulomb line, sliding back the other way.
+/// Shear under constant pressure: branch, secant unloading, the Coulomb line, sliding back the
+/// other way.
 void add_shear(const Parameters& p, std::vector<Claim>& claims) {
   const auto bonds = several_bonds(p);
   int k = 0;
@@ -334,8 +336,8 @@ TEST_CASE(
   p.mu2 = 2;
   std::vector<Claim> claims;
   for (const Bond& b : several_bonds(p)) {
-    // D = 1/2, g = 1/3; then pressed with N = tau_f A and sheared on at once: S = 1.1, R = 2, trial 1.8 g =
-    // 0.6
+    // D = 1/2, g = 1/3; then pressed with N = tau_f A and sheared on at once: S = 1.1, R = 2, trial
+    // 1.8 g = 0.6
     const double S = p.tau_f * b.area, u = -S / b.k_n, y = S / b.k_s;
     claims.push_back({"handed over",
                       b,
@@ -661,7 +663,8 @@ TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2
   for (const int steps : {37, 101, 1009, 10007}) {
     CHECK(std::abs(dissipated(along({{2 * u_l}}, steps)) - G_n) < off_n(steps, 2 * u_l) + 1e-10 * G_n);
     CHECK(std::abs(dissipated(along({{0, 2 * s_l}}, steps)) - G_s) < off_s(steps, 2 * s_l) + 1e-10 * G_s);
-    // part of the way: the share D of it is gone, the rest is stored, on the branch and unloaded alike
+    // part of the way: the share D of it is gone, the rest is stored, on the branch and unloaded
+    // alike
     const double u = 1.4 * u_l, s = 1.3 * s_l;  // D = 1/2
     for (const double back : {1.0, 0.3}) {
       CHECK(std::abs(dissipated(along({{u}, {back * u}}, steps)) - 0.5 * G_n) <
@@ -669,7 +672,8 @@ TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2
       CHECK(std::abs(dissipated(along({{0, 0, s}, {0, 0, back * s}}, steps)) - 0.5 * G_s) <
             off_s(steps, s) + 1e-10 * G_s);
     }
-    // under pressure: the area between branch and Coulomb line is damage, on the line it is friction
+    // under pressure: the area between branch and Coulomb line is damage, on the line it is
+    // friction
     const double N = 10e6 * b.area, S = p.tau_f * b.area + p.mu1 * N, R = p.mu2 * N, y_l = S / b.k_s,
                  y_end = 2 * y_l;
     Path path = along({{-N / b.k_n, 0}, {-N / b.k_n, y_end}}, steps);

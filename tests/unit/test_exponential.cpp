@@ -107,7 +107,8 @@ TEST_CASE(
   const auto bonds = several_bonds(s);
   std::vector<Path> paths;
   for (const auto& b : bonds) paths.push_back(ramp(b, {0.001, 0.002, 0.0021, 0.005, 0.02, 0.046}, 40));
-  // the numbers themselves, once: E 30 GPa, 1 % beyond e_max: 60 MPa + 30 GPa (0.275 + 0.2 exp(0.16)) 0.01
+  // the numbers themselves, once: E 30 GPa, 1 % beyond e_max: 60 MPa + 30 GPa (0.275 + 0.2
+  // exp(0.16)) 0.01
   CHECK(envelope(s, 0.012) ==
         doctest::Approx(60e6 + 30e9 * (0.275 + 0.2 * 1.1735108709918103) * 0.01).epsilon(1e-12));
   CHECK(envelope(s, 0.012) < 0.6 * s.E * 0.012);
@@ -141,8 +142,8 @@ TEST_CASE("exponential law: no jump in force anywhere - never stiffer than k_n -
     CHECK(secant_ratio(law(s), e) == doctest::Approx(1).epsilon(1e-14));
   CHECK(secant_ratio(law(s), 0.0820) < 1);
   CHECK(secant_ratio(law(s), 0.002) == doctest::Approx(0.475).epsilon(1e-14));
-  // where the envelope is steeper than k_n the bond goes elastically: from the strain at which g3 + g1 (1 +
-  // x) e^x = 1, x = g2 (e - e_max), found here by bisection
+  // where the envelope is steeper than k_n the bond goes elastically: from the strain at which g3 +
+  // g1 (1 + x) e^x = 1, x = g2 (e - e_max), found here by bisection
   double low = 0, high = 2;
   for (int k = 0; k < 100; ++k) {
     const double x = 0.5 * (low + high);

@@ -1,5 +1,5 @@
-// The layouts of the study: all of them compute what production does, and the limits they are held against
-// are counted right.
+// The layouts of the study: all of them compute what production does, and the limits they are held
+// against are counted right.
 #include <doctest/doctest.h>
 
 #include <limits>

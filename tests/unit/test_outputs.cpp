@@ -1,5 +1,5 @@
-// Output files, read back: by our own eyes where they are text, by the readers that users have (h5py, VTK)
-// where not.
+// Output files, read back: by our own eyes where they are text, by the readers that users have
+// (h5py, VTK) where not.
 #include <doctest/doctest.h>
 #include <sched.h>
 #include <signal.h>
@@ -64,9 +64,9 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Five particles whose rows are not in the order of their ids (gid = 50, 20, 40, 10, 30; the last one held),
-/// and four bonds in a table padded to eight. Every number is a function of the gid, which read_outputs.py
-/// knows too.
+/// Five particles whose rows are not in the order of their ids (gid = 50, 20, 40, 10, 30; the last
+/// one held), and four bonds in a table padded to eight. Every number is a function of the gid,
+/// which read_outputs.py knows too.
 struct Scene {
   ParticleTable particles;
   BondTable bonds;
@@ -149,7 +149,8 @@ Scene noise(std::size_t particle_count, std::size_t bond_count) {
   return scene;
 }
 
-/// A file system of a given size, in a mount name space of this process: it goes when the process goes.
+/// A file system of a given size, in a mount name space of this process: it goes when the process
+/// goes.
 struct SmallDisk {
   fs::path path;
   bool mounted = false;
@@ -369,7 +370,8 @@ TEST_CASE("outputs: on a full disk the earlier frames stay readable, and one lin
   CHECK(contains(line, "No space left on device; free some space"));
   check_with_python("frames '" + file.string() + "' " + std::to_string(frames));
 
-  // what is left does not hold this one either; the old content survives, the half of the new one goes
+  // what is left does not hold this one either; the old content survives, the half of the new one
+  // goes
   atomic_write(disk.path / "curve-0.csv", "old");
   const std::string large(1 << 20, 'x');
   CHECK(contains(trouble_of([&] { atomic_write(disk.path / "curve-0.csv", large); }), "No space left"));

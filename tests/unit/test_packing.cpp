@@ -1,6 +1,6 @@
-// Packings: what was asked for is there to the last sphere, and the rest resembles the real meshes: the
-// concrete cylinder of 13,500 spheres at porosity 0.257 has coordination 10.65, overlaps to 0.198, and 6
-// spheres with fewer than 3 neighbours.
+// Packings: what was asked for is there to the last sphere, and the rest resembles the real meshes:
+// the concrete cylinder of 13,500 spheres at porosity 0.257 has coordination 10.65, overlaps to
+// 0.198, and 6 spheres with fewer than 3 neighbours.
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
@@ -100,7 +100,8 @@ double solid_mantle(const Body& body, const Specimen& s, double rho) {
   return static_cast<double>(inside) / points;
 }
 
-/// Distance from the sphere's centre to the nearest wall, over its radius: at least, over all spheres.
+/// Distance from the sphere's centre to the nearest wall, over its radius: at least, over all
+/// spheres.
 double least_wall_distance(const Body& body, const Specimen& s) {
   double least = 1e300;
   for (const auto& p : s.spheres)

@@ -1,5 +1,5 @@
-// Packings of discs in the plane y = 0, by porosity and by genesis pressure. What the walls feel is summed
-// here anew from centres and radii.
+// Packings of discs in the plane y = 0, by porosity and by genesis pressure. What the walls feel is
+// summed here anew from centres and radii.
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
@@ -100,8 +100,8 @@ double unbalance(const Body& body, const Specimen& s) {
   return std::sqrt(squares / f.size()) / (overlap / contacts);
 }
 
-/// Of the body's part with low <= z < high (x if `across`), the fraction that discs fill, overlaps twice; by
-/// points within each disc.
+/// Of the body's part with low <= z < high (x if `across`), the fraction that discs fill, overlaps
+/// twice; by points within each disc.
 double filled(const Body& body, const Specimen& s, double low, double high, bool across = false) {
   constexpr int rings = 12;
   double sum = 0;
@@ -157,7 +157,8 @@ bool has(const std::string& text, const char* part) { return text.find(part) != 
 
 TEST_CASE(
     "discs: porosity as asked and the coordination of the meshes of table 5.1 of the Santasusana thesis") {
-  // its irregular meshes: 5.08 at porosity 0.1104 and 5.14 at 0.0939 and 5.24 at 0.0677; 5 % either way
+  // its irregular meshes: 5.08 at porosity 0.1104 and 5.14 at 0.0939 and 5.24 at 0.0677; 5 % either
+  // way
   struct Mesh {
     double porosity, coordination;
   };
@@ -206,8 +207,8 @@ TEST_CASE("discs: genesis pressure is reached at rest on all four walls [0.5 %]"
     CHECK(unbalance(rectangle, s) < 2e-3);
     check_inside(rectangle, s);
     check_sizes(s, r.sizes.spread);
-    // Fakhimi & Villegas: more contacts with more genesis pressure; frictionless discs at rest need 4 or
-    // nearly
+    // Fakhimi & Villegas: more contacts with more genesis pressure; frictionless discs at rest need
+    // 4 or nearly
     const double contacts = coordination(s, 0);
     CAPTURE(contacts);
     CHECK(contacts > std::max(before, 3.9));

@@ -1,4 +1,5 @@
-// The parts of ranks, and sums that do not depend on them. Ranks that talk to each other: tests/cli/test_ranks.py.
+// The parts of ranks, and sums that do not depend on them. Ranks that talk to each other:
+// tests/cli/test_ranks.py.
 #include <doctest/doctest.h>
 
 #include <cmath>

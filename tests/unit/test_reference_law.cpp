@@ -484,9 +484,9 @@ TEST_CASE("reference/pair: a driven pair of spheres follows the law's path [sect
 }
 
 TEST_CASE("reference/pair: the shear force turns with the pair and keeps its length [section 4]") {
-  // A rigid turn of 1 radian in 1000 steps: exact positions, mean velocities and spins. About an oblique axis
-  // k_s = 0, to see the turning alone: velocities at n - 1/2 on the normal at n give du = d dt^2/2 (w.n) w_t
-  // a step there.
+  // A rigid turn of 1 radian in 1000 steps: exact positions, mean velocities and spins. About an
+  // oblique axis k_s = 0, to see the turning alone: velocities at n - 1/2 on the normal at n give
+  // du = d dt^2/2 (w.n) w_t a step there.
   for (const bool oblique : {true, false}) {
     Parameters p;
     p.contact_damping = false;

@@ -1,4 +1,5 @@
-// Sums of forces by particle: the same, to round-off or to the bit, however the bonds are cut into ranges.
+// Sums of forces by particle: the same, to round-off or to the bit, however the bonds are cut into
+// ranges.
 #include <doctest/doctest.h>
 
 #include <random>

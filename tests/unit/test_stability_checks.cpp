@@ -1,5 +1,5 @@
-// What stops a run: each guard made to fire by a state or a run that has gone wrong, and none of them by a
-// specimen that fails as violently as the law allows.
+// What stops a run: each guard made to fire by a state or a run that has gone wrong, and none of
+// them by a specimen that fails as violently as the law allows.
 #include <doctest/doctest.h>
 
 #include "core/base/error.hpp"

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double confinement = 4e6;
 
-/// Deviator: 30 GPa to 20 MPa, then 15 GPa to 40 MPa at strain 0.002, then down. Radial -0.2, then -0.5 of
-/// the axial.
+/// Deviator: 30 GPa to 20 MPa, then 15 GPa to 40 MPa at strain 0.002, then down. Radial -0.2, then
+/// -0.5 of the axial.
 double deviator_at(double e) {
   const double knee = 20e6 / 30e9, top = knee + 20e6 / 15e9;
   if (e < knee) return 30e9 * e;
@@ -179,7 +179,8 @@ TEST_CASE(
 
 namespace {
 
-/// Straight pieces from corner to corner of (axial strain, deviator), 100 rows each, one a millisecond.
+/// Straight pieces from corner to corner of (axial strain, deviator), 100 rows each, one a
+/// millisecond.
 std::vector<CurveRow> through(const std::vector<std::pair<double, double>>& corners) {
   std::vector<CurveRow> rows{CurveRow{}};
   double e = 0, q = 0;
@@ -200,7 +201,8 @@ std::vector<CurveRow> through(const std::vector<std::pair<double, double>>& corn
 }  // namespace
 
 TEST_CASE("strength: cycles: moduli down and up and the strain that stays - of straight pieces [rel 1e-9]") {
-  // up to 40 MPa at 0.002; down at 25 GPa to 4 MPa; up at 24 GPa to 40 MPa; on to 44 MPa at 0.003; again
+  // up to 40 MPa at 0.002; down at 25 GPa to 4 MPa; up at 24 GPa to 40 MPa; on to 44 MPa at 0.003;
+  // again
   const double down = 0.002 - 36e6 / 25e9, up = down + 36e6 / 24e9, down2 = 0.003 - 39.6e6 / 20e9;
   const auto rows =
       through({{0.002, 40e6}, {down, 4e6}, {up, 40e6}, {0.003, 44e6}, {down2, 4.4e6}, {0.0035, 45e6}});

@@ -1,5 +1,5 @@
-// The largest stable step against closed forms, the estimate of a run below it, scaled masses, and steps that
-// new contacts lower.
+// The largest stable step against closed forms, the estimate of a run below it, scaled masses, and
+// steps that new contacts lower.
 #include <doctest/doctest.h>
 
 #include <numeric>
@@ -72,8 +72,8 @@ StepScene scene_of(const World& w) {
 /// Of stiffness s and damping d: s dt^2 + d dt = limit.
 double root(double s, double d, double limit) { return 2 * limit / (d + std::sqrt(d * d + 4 * s * limit)); }
 
-/// The limit of a mode with dt^2 K/4 = s dt^2, dt C/2 = d dt for whole dashpots; `cap` is what the cap makes
-/// of s, `load` the larger S_i/m_i.
+/// The limit of a mode with dt^2 K/4 = s dt^2, dt C/2 = d dt for whole dashpots; `cap` is what the
+/// cap makes of s, `load` the larger S_i/m_i.
 double limit_of(DampingScheme scheme, double s, double d, double cap, double load, double limit) {
   if (scheme == DampingScheme::explicit_) return root(s, d, limit);
   if (scheme == DampingScheme::capped)  // the smaller dashpot allows the larger step

@@ -1,4 +1,5 @@
-// The energy of bonds without damage, in registers of every width, held against the sum bond by bond.
+// The energy of bonds without damage, in registers of every width, held against the sum bond by
+// bond.
 #include <doctest/doctest.h>
 
 #include "core/world/energies.hpp"

@@ -1,4 +1,5 @@
-// Errors, fronts, sampling and the journal of the work-precision study, on curves and numbers made by hand.
+// Errors, fronts, sampling and the journal of the work-precision study, on curves and numbers made
+// by hand.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -87,13 +88,15 @@ TEST_CASE("work precision: errors against closed forms") {
   const Readings reference = roof(40e6);
   const Errors same = errors_of(reference, reference);
   for (const double e : same) CHECK(e == doctest::Approx(0));
-  // the same strain, 5 % more stress: the difference rises evenly to 5 % of the peak, its rms is 0.05/sqrt(3)
+  // the same strain, 5 % more stress: the difference rises evenly to 5 % of the peak, its rms is
+  // 0.05/sqrt(3)
   const Errors higher = errors_of(roof(42e6), reference);
   CHECK(higher[at(Measure::peak)] == doctest::Approx(0.05));
   CHECK(higher[at(Measure::young)] == doctest::Approx(0.05));
   CHECK(higher[at(Measure::strain_at_peak)] == doctest::Approx(0));
   CHECK(higher[at(Measure::curve)] == doctest::Approx(0.05 / std::sqrt(3.0)).epsilon(1e-5));
-  // half the peak at half the strain, then down to a quarter at 0.75, where the curve ends and is held
+  // half the peak at half the strain, then down to a quarter at 0.75, where the curve ends and is
+  // held
   const Errors lower = errors_of(roof(20e6, 0.001), reference);
   CHECK(lower[at(Measure::peak)] == doctest::Approx(-0.5));
   CHECK(lower[at(Measure::young)] == doctest::Approx(0));

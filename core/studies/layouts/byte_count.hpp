@@ -13,7 +13,8 @@ struct ByteCount {
   double moved() const { return read + written; }
 };
 
-/// Of bonds that neither yield nor break in the step: their plastic stretch and damages are not written.
+/// Of bonds that neither yield nor break in the step: their plastic stretch and damages are not
+/// written.
 ByteCount bytes_per_bond(const BondTable& bonds, const ParticleTable& particles);
 
 }  // namespace breccia

@@ -7,12 +7,13 @@
 
 namespace breccia {
 
-/// records: position, velocity and spin of a particle side by side, its force and torque in a record of their
-/// own (production). columns: each a column
+/// records: position, velocity and spin of a particle side by side, its force and torque in a
+/// record of their own (production). columns: each a column
 enum class ParticleStorage { records, columns };
 
-/// private_sums, gather: as in production. shared_atomic: production's `atomic`. all_atomic: every add.
-/// colours: no two bonds of a colour share a particle; one colour after the other, with plain adds
+/// private_sums, gather: as in production. shared_atomic: production's `atomic`. all_atomic: every
+/// add. colours: no two bonds of a colour share a particle; one colour after the other, with plain
+/// adds
 enum class Summation { private_sums, gather, shared_atomic, all_atomic, colours };
 
 struct Layout {

@@ -70,7 +70,8 @@ LayoutScene make_layout_scene(std::size_t spheres, const Material& material, int
 std::vector<LayoutResult> study_layouts(const LayoutScene& scene, int threads, const LayoutTiming& timing) {
   const World& w = scene.world;
   const double bonds = static_cast<double>(w.bonds.size);
-  // so short a step that the state stays the same over all passes; the time of a pass does not depend on it
+  // so short a step that the state stays the same over all passes; the time of a pass does not
+  // depend on it
   const double dt = 1e-6 * w.dt;
 
   const MachinePeak peak = measure_peak(w.options.instruction_set, threads, scene.bytes.set * bonds,

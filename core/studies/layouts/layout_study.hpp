@@ -44,7 +44,8 @@ struct LayoutResult {
   double fraction_of_limit() const { return 1e9 * limit.time() / median(); }
 };
 
-/// Every layout in turn, block after block, so that what else happens on the machine meets all of them.
+/// Every layout in turn, block after block, so that what else happens on the machine meets all of
+/// them.
 std::vector<LayoutResult> study_layouts(const LayoutScene& scene, int threads, const LayoutTiming& timing);
 
 }  // namespace breccia

@@ -8,8 +8,8 @@ namespace {
 
 using Lanes = std::experimental::native_simd<double>;
 
-/// Enough to fill two units with a latency of four or five cycles; with two constants they fit the sixteen
-/// registers of the smaller instruction sets.
+/// Enough to fill two units with a latency of four or five cycles; with two constants they fit the
+/// sixteen registers of the smaller instruction sets.
 constexpr std::size_t chains = 12;
 
 void stream(const StreamColumns& s, std::size_t first, std::size_t last, std::size_t sweeps) {

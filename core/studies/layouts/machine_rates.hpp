@@ -6,7 +6,8 @@
 
 namespace breccia {
 
-/// Four columns of as many values; three are read, one is read and written: much as a pass over bonds.
+/// Four columns of as many values; three are read, one is read and written: much as a pass over
+/// bonds.
 struct StreamColumns {
   const double *a, *b, *c;
   double* d;
@@ -15,7 +16,8 @@ struct StreamColumns {
 struct MachineRates {
   /// Sweeps over values [first, last) of the columns, `sweeps` times.
   void (*stream)(const StreamColumns&, std::size_t first, std::size_t last, std::size_t sweeps);
-  /// Multiplications and additions that do not wait for each other. @returns a number that depends on all
+  /// Multiplications and additions that do not wait for each other. @returns a number that depends
+  /// on all
   double (*multiply_add)(std::size_t rounds);
   double operations_per_round;  ///< of `multiply_add`
 };

@@ -10,8 +10,8 @@ namespace breccia {
 struct OperationCount {
   std::size_t additions = 0;  ///< and subtractions
   std::size_t multiplications = 0, divisions = 0, roots = 0, comparisons = 0;
-  /// Additions, multiplications, divisions and roots, one each, whatever they cost; a comparison takes no
-  /// place in the units that add and multiply.
+  /// Additions, multiplications, divisions and roots, one each, whatever they cost; a comparison
+  /// takes no place in the units that add and multiply.
   std::size_t total() const { return additions + multiplications + divisions + roots; }
 };
 
@@ -52,8 +52,8 @@ OperationCount operations_of(const Work& work) {
   return Counted::count();
 }
 
-/// Of one intact, slightly loaded bond of the Dempack law with all features: motion of its ends, law, and the
-/// sums of force and torque at both ends.
+/// Of one intact, slightly loaded bond of the Dempack law with all features: motion of its ends,
+/// law, and the sums of force and torque at both ends.
 OperationCount operations_per_bond();
 
 }  // namespace breccia

@@ -1,6 +1,6 @@
 // What the machine lets a pass take at least: as long as its bytes take to move, and as long as its
-// operations take. Williams, Waterman, Patterson, "Roofline: an insightful visual performance model for
-// multicore architectures", Commun. ACM 52 (2009) 65-76.
+// operations take. Williams, Waterman, Patterson, "Roofline: an insightful visual performance model
+// for multicore architectures", Commun. ACM 52 (2009) 65-76.
 #pragma once
 #include <cstddef>
 

@@ -1,5 +1,6 @@
-// What the loop reads and writes of the bonds, laid out in other ways than the columns of the table. Rows of
-// the ends and the shares of the arms stay columns in all of them: the sums read those too.
+// What the loop reads and writes of the bonds, laid out in other ways than the columns of the
+// table. Rows of the ends and the shares of the arms stay columns in all of them: the sums read
+// those too.
 #pragma once
 #include <tbb/cache_aligned_allocator.h>
 

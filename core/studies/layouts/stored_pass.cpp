@@ -6,8 +6,8 @@
 namespace breccia::BRECCIA_ISA {
 namespace {
 
-/// `block` bonds side by side, column by column; a block of 1 is a record, whose values are picked one by
-/// one.
+/// `block` bonds side by side, column by column; a block of 1 is a record, whose values are picked
+/// one by one.
 template <std::size_t block>
 struct BlockBonds {
   const BondPassIn& in;

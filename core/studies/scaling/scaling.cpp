@@ -20,8 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Cuts a running test into blocks. A block ends where the next one begins: nothing between steps is left
-/// out.
+/// Cuts a running test into blocks. A block ends where the next one begins: nothing between steps
+/// is left out.
 class BlockClock {
 public:
   BlockClock(const ScalingBlocks& blocks, ScalingRun& run) : blocks_(blocks), run_(run) {}
@@ -57,8 +57,8 @@ LoadTest compression() {
   return test;
 }
 
-/// True for runs that are compared with each other: same study and scatter, and in strong scaling the same
-/// specimen.
+/// True for runs that are compared with each other: same study and scatter, and in strong scaling
+/// the same specimen.
 bool same_series(const ScalingPoint& a, const ScalingPoint& b) {
   return a.study == b.study && a.scatter == b.scatter &&
          (a.study == ScalingStudy::weak || a.spheres == b.spheres);
@@ -96,7 +96,8 @@ ScalingSpecimen make_scaling_specimen(std::size_t spheres, const Material& mater
 ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& material,
                            const ScalingPoint& point, const ScalingBlocks& blocks,
                            const ScalingProgress& progress, const Ranks& ranks) {
-  // ranges alone do not bind: TBB would spread them over all its threads, each with caches of its own
+  // ranges alone do not bind: TBB would spread them over all its threads, each with caches of its
+  // own
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(point.threads));
   reset_peak_memory();

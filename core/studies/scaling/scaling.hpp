@@ -1,5 +1,5 @@
-// How the time of a step changes with the number of threads: one uniaxial compression of a packed concrete
-// cylinder, measured in blocks of steps.
+// How the time of a step changes with the number of threads: one uniaxial compression of a packed
+// concrete cylinder, measured in blocks of steps.
 #pragma once
 #include <functional>
 #include <string>
@@ -24,8 +24,8 @@ struct ScalingPoint {
 
 /// The steps of a point, counted from the start of the test.
 struct ScalingBlocks {
-  /// A row of the curve is closed (energies, broken bonds) every so many steps, as in the middle of a test
-  /// of usual length; blocks are whole rows.
+  /// A row of the curve is closed (energies, broken bonds) every so many steps, as in the middle of
+  /// a test of usual length; blocks are whole rows.
   static constexpr std::size_t steps_per_row = 20;
   /// In all: 2 % of strain take longer than this with 100 spheres or more.
   static constexpr std::size_t most_steps = 20'000;
@@ -36,8 +36,8 @@ struct ScalingBlocks {
   std::size_t all_steps() const { return warm_up + steps * repeat; }
 };
 
-/// Cylinder, packed and bonded once, with the area factor of an affine deformation: it takes no elastic
-/// probe, and the work of a step does not depend on it.
+/// Cylinder, packed and bonded once, with the area factor of an affine deformation: it takes no
+/// elastic probe, and the work of a step does not depend on it.
 struct ScalingSpecimen {
   Assembly assembly;
   AreaFactor factor;
@@ -68,7 +68,8 @@ struct ScalingRun {
   double all_seconds() const;  ///< of all blocks
 };
 
-/// Called about ten times a second at most: the fraction of the point's steps done, and the present row.
+/// Called about ten times a second at most: the fraction of the point's steps done, and the present
+/// row.
 using ScalingProgress = std::function<void(const World&, double, const CurveRow&)>;
 
 /// The test as breccia-ucs runs it, from rest, on at most as many threads as the point says.
@@ -88,8 +89,8 @@ double bond_updates(const ScalingRun& run);
 /// Of all tables together, spheres and contacts too.
 double table_bytes_per_bond(const ScalingRun& run);
 
-/// Speed-up: bond updates per second over those of the run with the fewest threads in the same series (of one
-/// specimen that is t_1/t_n). Efficiency: speed-up over the ratio of threads.
+/// Speed-up: bond updates per second over those of the run with the fewest threads in the same
+/// series (of one specimen that is t_1/t_n). Efficiency: speed-up over the ratio of threads.
 struct ScalingGain {
   double speed_up = 1, efficiency = 1;
 };

@@ -1,5 +1,5 @@
-// The largest stable step of a small network to seven digits, in another way than time_step.hpp: what its
-// estimate is held against.
+// The largest stable step of a small network to seven digits, in another way than time_step.hpp:
+// what its estimate is held against.
 #pragma once
 #include "core/world/world.hpp"
 

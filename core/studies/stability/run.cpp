@@ -20,7 +20,8 @@
 namespace breccia {
 namespace {
 
-/// A network has nobody held, no loss but the dashpots of a damped one, and nothing that is not linear.
+/// A network has nobody held, no loss but the dashpots of a damped one, and nothing that is not
+/// linear.
 void make_linear(WorldOptions& options, StabilityPart part) {
   options.features.plasticity = options.features.breakage = false;
   options.new_contacts = false;
@@ -28,8 +29,8 @@ void make_linear(WorldOptions& options, StabilityPart part) {
   if (part == StabilityPart::network) options.contact_damping = 0.0;
 }
 
-/// Random velocities and spins, without net momentum, so small that nothing departs from the linear network:
-/// strains near 1e-6, and in a step no bond turns by more than 1e-4.
+/// Random velocities and spins, without net momentum, so small that nothing departs from the linear
+/// network: strains near 1e-6, and in a step no bond turns by more than 1e-4.
 void shake(World& w) {
   const std::span<const double> lengths = std::span(w.bonds.rest_length).first(w.bonds.size);
   const double speed = std::min(1e-6 * std::sqrt(w.material.young_modulus / w.material.density),
@@ -49,8 +50,8 @@ void shake(World& w) {
   for (Vec3& v : p.velocity) v -= (1.0 / mass) * momentum;
 }
 
-/// J, kinetic and stored at the instant whose forces the step finds: with the velocities half a step before
-/// and after it, which is what the scheme conserves (B48). Makes the step.
+/// J, kinetic and stored at the instant whose forces the step finds: with the velocities half a
+/// step before and after it, which is what the scheme conserves (B48). Makes the step.
 double advance_with_energy(World& w) {
   ParticleTable& p = w.particles;
   const Column<Vec3> place = p.position.copy(), velocity = p.velocity.copy(), spin = p.spin.copy();
@@ -66,8 +67,8 @@ double advance_with_energy(World& w) {
   return kinetic + stored;
 }
 
-/// What the scheme conserves, over a run, held against its start. It is conserved above the limit too, where
-/// its kinetic part is large and negative: it tells errors, never growth.
+/// What the scheme conserves, over a run, held against its start. It is conserved above the limit
+/// too, where its kinetic part is large and negative: it tells errors, never growth.
 class EnergyBook {
 public:
   explicit EnergyBook(std::uint64_t steps) : last_tenth_(steps - steps / 10) {}

@@ -7,10 +7,10 @@
 
 namespace breccia {
 
-/// stable: ran to its end, and energy stayed bounded. blew_up: a guard stopped it, and without checks its
-/// energy leaves all bounds. stopped: a guard stopped it, and it would not have left all bounds, or is a
-/// law's run. refused: it was never begun. unnoticed: left all bounds and was not stopped, or a law's run
-/// beyond the limit whose peak is not that of small steps.
+/// stable: ran to its end, and energy stayed bounded. blew_up: a guard stopped it, and without
+/// checks its energy leaves all bounds. stopped: a guard stopped it, and it would not have left all
+/// bounds, or is a law's run. refused: it was never begun. unnoticed: left all bounds and was not
+/// stopped, or a law's run beyond the limit whose peak is not that of small steps.
 enum class Verdict { stable, blew_up, stopped, refused, unnoticed };
 inline constexpr std::string_view name_of(Verdict verdict) {
   constexpr std::string_view names[] = {"stable", "blew up", "stopped", "refused", "unnoticed"};

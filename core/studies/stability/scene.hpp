@@ -1,5 +1,5 @@
-// A stiff or extreme scene of the stability study, declared as data: what it is, what it stresses, and how it
-// differs from the plain one.
+// A stiff or extreme scene of the stability study, declared as data: what it is, what it stresses,
+// and how it differs from the plain one.
 #pragma once
 #include <functional>
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace breccia {
 
-/// What is run of a scene. network: its bonds, unbreakable and without any loss, shaken and left alone:
-/// energy is kept below the limit of the step and grows without bound above it. damped: the same with the
-/// scene's contact damping. law: the whole law under the scene's loading, where "stable" and "limit" mean
-/// less (see StabilityRun).
+/// What is run of a scene. network: its bonds, unbreakable and without any loss, shaken and left
+/// alone: energy is kept below the limit of the step and grows without bound above it. damped: the
+/// same with the scene's contact damping. law: the whole law under the scene's loading, where
+/// "stable" and "limit" mean less (see StabilityRun).
 enum class StabilityPart { network, damped, law };
 inline constexpr std::string_view name_of(StabilityPart part) {
   constexpr std::string_view names[] = {"network", "damped", "law"};

@@ -8,8 +8,8 @@
 namespace breccia {
 namespace {
 
-/// Beyond the limit a law's peak within this of the peak of the smallest step counts as right: what the step
-/// itself changes below the limit is as much.
+/// Beyond the limit a law's peak within this of the peak of the smallest step counts as right: what
+/// the step itself changes below the limit is as much.
 constexpr double near_enough = 0.05;
 
 /// A law's runs are held against that of the smallest step.

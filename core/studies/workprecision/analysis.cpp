@@ -128,7 +128,8 @@ void group_sizes(const std::vector<Finished>& finished, Analysis& a) {
   for (std::size_t m = 0; m < all_measures.size(); ++m) a.fits[m] = fit_spread(samples[m]);
 }
 
-/// A difference that noise alone would not make: twice the standard deviation of one run less a mean.
+/// A difference that noise alone would not make: twice the standard deviation of one run less a
+/// mean.
 void check_convergence(Analysis& a) {
   const Reference& r = a.reference;
   const auto peak = static_cast<std::size_t>(Measure::peak);

@@ -1,5 +1,5 @@
-// What a work-precision study comes to: reference and its error bar, noise floor, errors, fronts, the
-// cheapest recipes, sampling error.
+// What a work-precision study comes to: reference and its error bar, noise floor, errors, fronts,
+// the cheapest recipes, sampling error.
 #pragma once
 #include <optional>
 #include <string>
@@ -23,15 +23,15 @@ struct Reference {
   Errors resolution{};
 };
 
-/// Front of one measure, by run time and the larger of error and resolution: below it no recipe is told from
-/// another. Indices into the finished runs.
+/// Front of one measure, by run time and the larger of error and resolution: below it no recipe is
+/// told from another. Indices into the finished runs.
 struct Front {
   Measure measure;
   std::vector<std::size_t> runs;
 };
 
-/// The cheapest recipe whose error and the resolution together are within a tolerance, so that luck alone
-/// does not choose it.
+/// The cheapest recipe whose error and the resolution together are within a tolerance, so that luck
+/// alone does not choose it.
 struct Cheapest {
   double tolerance = 0;
   std::optional<Measure> measure;  ///< nothing: all four

@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::size_t curve_points = 400;  ///< at which two curves are compared
 
-/// Strain at the k-th of the points that halve a range into equal parts: middles, so that none counts half.
+/// Strain at the k-th of the points that halve a range into equal parts: middles, so that none
+/// counts half.
 double middle_of(double range, std::size_t k) {
   return range * (static_cast<double>(k) + 0.5) / static_cast<double>(curve_points);
 }

@@ -17,8 +17,8 @@ struct StressStrain {
   std::vector<double> stress;  ///< Pa
 };
 
-/// The rows whose strain is beyond all before (a gauge unloads where cracks localise elsewhere), from the
-/// origin.
+/// The rows whose strain is beyond all before (a gauge unloads where cracks localise elsewhere),
+/// from the origin.
 StressStrain rising_curve(std::span<const CurveRow> rows);
 
 /// The same at `points` strains, evenly spaced from 0 to the last.
@@ -41,11 +41,12 @@ inline constexpr std::array<Measure, 4> all_measures{Measure::peak, Measure::you
                                                      Measure::curve};
 std::string_view name_of(Measure measure);
 
-/// One number for each measure, in the order of `all_measures`. Of the reference: with sign, but for the
-/// curve.
+/// One number for each measure, in the order of `all_measures`. Of the reference: with sign, but
+/// for the curve.
 using Errors = std::array<double, all_measures.size()>;
 
-/// Root mean square of the stress difference over the strains up to the reference's peak, over that peak.
+/// Root mean square of the stress difference over the strains up to the reference's peak, over that
+/// peak.
 double curve_error(const StressStrain& curve, const Readings& reference);
 
 /// (x - reference)/reference, and the curve's error.
@@ -55,7 +56,8 @@ Errors errors_of(const Readings& run, const Readings& reference);
 /// @param runs  at least one, with all readings
 Readings mean_of(std::span<const Readings> runs);
 
-/// Standard deviation of one run about the mean of all, over that mean: noise that no recipe gets below.
+/// Standard deviation of one run about the mean of all, over that mean: noise that no recipe gets
+/// below.
 /// @param runs  two or more
 Errors spread_about(const Readings& mean, std::span<const Readings> runs);
 

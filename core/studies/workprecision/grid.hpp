@@ -1,5 +1,6 @@
-// The recipes that breccia-workprecision tries: variations of one thing at a time around a base, a chosen set
-// of combinations, and specimens of other sizes. The values are a table at the top of grid.cpp.
+// The recipes that breccia-workprecision tries: variations of one thing at a time around a base, a
+// chosen set of combinations, and specimens of other sizes. The values are a table at the top of
+// grid.cpp.
 #pragma once
 #include <span>
 #include <string_view>

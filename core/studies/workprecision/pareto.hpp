@@ -10,8 +10,8 @@ struct Choice {
   double cost = 0, error = 0;  ///< of NaN: the choice does not count
 };
 
-/// Indices of the choices that no other beats: none is as cheap and as exact, and better in one of the two.
-/// In rising cost, falling error; of equal ones the first.
+/// Indices of the choices that no other beats: none is as cheap and as exact, and better in one of
+/// the two. In rising cost, falling error; of equal ones the first.
 std::vector<std::size_t> pareto_front(std::span<const Choice> choices);
 
 /// Index of the cheapest with at most this error.

@@ -1,4 +1,5 @@
-// How a test is run, as far as it costs time and changes the answer: what breccia-workprecision varies.
+// How a test is run, as far as it costs time and changes the answer: what breccia-workprecision
+// varies.
 #pragma once
 #include <string>
 #include <string_view>
@@ -22,15 +23,15 @@ struct Recipe {
 
 std::string_view name_of(Precision precision);
 
-/// Everything in a line; equal if and only if the recipes are. "step 0.8, 0.1 m/s, explicit, mass 1, damping
-/// 0.1, full, private"
+/// Everything in a line; equal if and only if the recipes are. "step 0.8, 0.1 m/s, explicit, mass
+/// 1, damping 0.1, full, private"
 std::string describe(const Recipe& recipe);
 
 /// What a case says for it, TOML.
 std::string case_lines(const Recipe& recipe);
 
-/// Steps that it takes, over those of another: by step and speed alone. What schemes and heavier masses win
-/// depends on the specimen.
+/// Steps that it takes, over those of another: by step and speed alone. What schemes and heavier
+/// masses win depends on the specimen.
 double steps_over(const Recipe& recipe, const Recipe& other);
 
 }  // namespace breccia

@@ -10,8 +10,8 @@
 
 namespace breccia {
 
-/// reference: small step, slow platens, several times. half_step, half_speed: what is left of its error.
-/// recipe: timed alone. size: another specimen.
+/// reference: small step, slow platens, several times. half_step, half_speed: what is left of its
+/// error. recipe: timed alone. size: another specimen.
 enum class Purpose { reference, half_step, half_speed, recipe, size };
 std::string_view name_of(Purpose purpose);
 

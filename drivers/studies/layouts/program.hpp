@@ -1,5 +1,5 @@
-// The program breccia-layouts: the bond loop with bonds and particles stored, and forces summed, in other
-// ways.
+// The program breccia-layouts: the bond loop with bonds and particles stored, and forces summed, in
+// other ways.
 #pragma once
 
 namespace breccia {

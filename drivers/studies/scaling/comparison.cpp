@@ -50,8 +50,8 @@ std::optional<double> measured_on(const PublishedTimes& p, const std::vector<con
   return std::nullopt;
 }
 
-/// A row for each number of cores that somebody has used; a column for each code, and each one's ratio to
-/// breccia.
+/// A row for each number of cores that somebody has used; a column for each code, and each one's
+/// ratio to breccia.
 std::string table_of(const Tests& tests, const std::vector<const ScalingRun*>& runs) {
   const PublishedTimes& first = *tests.front();
   std::set<int> cores(first.cores.begin(), first.cores.end());

@@ -11,7 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a run comes to: names and values, the same in both files. Shares are of the wall time of the blocks.
+/// What a run comes to: names and values, the same in both files. Shares are of the wall time of
+/// the blocks.
 Json values_of(const ScalingRun& run, const std::vector<ScalingRun>& runs) {
   const MedianAndRange t = step_time(run);
   const ScalingGain gain = gain_of(run, runs);

@@ -31,8 +31,8 @@ std::string describe(const ScalingRun& run, const std::vector<ScalingRun>& runs)
 /// For the terminal: a table for each study, a line for each point. Lines end with '\n'.
 std::string format_scaling_tables(const ScalingResults& results);
 
-/// For the terminal: breccia beside what others have published for as many spheres and steps, and the ratios.
-/// Lines end with '\n'.
+/// For the terminal: breccia beside what others have published for as many spheres and steps, and
+/// the ratios. Lines end with '\n'.
 std::string format_comparison(const ScalingResults& results);
 
 }  // namespace breccia

@@ -15,7 +15,8 @@ using JournalHead = std::vector<std::pair<std::string, std::string>>;
 
 class Journal {
 public:
-  /// @param resume  true: what the file holds is kept, but for a last line that a kill has cut short
+  /// @param resume  true: what the file holds is kept, but for a last line that a kill has cut
+  ///         short
   /// @throws BadInput when the file was made with another head, or is none; WriteError
   Journal(std::filesystem::path file, const JournalHead& head, bool resume);
 
@@ -29,7 +30,8 @@ private:
   std::map<std::string, Outcome> done_;
 };
 
-/// 16 hex digits over the resolved case, the bytes of its specimen's file and the version of breccia.
+/// 16 hex digits over the resolved case, the bytes of its specimen's file and the version of
+/// breccia.
 std::string hash_of_case(const Case& c);
 
 }  // namespace breccia

@@ -35,8 +35,9 @@ std::string heading(const WorkPrecisionResults& r, const Case& c, std::size_t tr
   return text;
 }
 
-/// How long a trial takes beside a run of the case on all threads. Steps and spheres alone, n^(4/3): more of
-/// them, and smaller ones. What a run on one thread costs more, as many at a time win back.
+/// How long a trial takes beside a run of the case on all threads. Steps and spheres alone,
+/// n^(4/3): more of them, and smaller ones. What a run on one thread costs more, as many at a time
+/// win back.
 double cost_of(const Trial& trial, const Recipe& base, double spheres) {
   const double size = trial.spheres ? static_cast<double>(trial.spheres) / spheres : 1.0;
   return steps_over(trial.recipe, base) * std::pow(size, 4.0 / 3.0);

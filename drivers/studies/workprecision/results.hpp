@@ -1,4 +1,5 @@
-// What breccia-workprecision leaves and shows: workprecision.csv, workprecision.json, tables on the terminal.
+// What breccia-workprecision leaves and shows: workprecision.csv, workprecision.json, tables on the
+// terminal.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -20,7 +21,8 @@ struct WorkPrecisionResults {
   std::optional<Analysis> analysis;  ///< nothing before the reference is there
 };
 
-/// A line for each run; the column names say the units, a quantity without a value is an empty field.
+/// A line for each run; the column names say the units, a quantity without a value is an empty
+/// field.
 /// @throws WriteError
 void write_workprecision_csv(const std::filesystem::path& file, const WorkPrecisionResults& results);
 

@@ -44,8 +44,8 @@ std::optional<Outcome> run_trial(
     const std::function<bool()>& stop,
     const std::function<void(const World&, int, double, const CurveRow&)>& progress = {});
 
-/// Calls work(0) ... work(tasks - 1) on threads of their own, `lanes` at a time; no more begin once one has
-/// thrown or `stop` is true. Throws what the first of them threw.
+/// Calls work(0) ... work(tasks - 1) on threads of their own, `lanes` at a time; no more begin once
+/// one has thrown or `stop` is true. Throws what the first of them threw.
 void run_side_by_side(std::size_t tasks, int lanes, const std::function<bool()>& stop,
                       const std::function<void(std::size_t)>& work);
 
