@@ -21,7 +21,7 @@ struct Touching {
   double friction = 0;
 };
 
-/// Pairs without a bond that overlap at the start.
+/// (B103): pairs without a bond that overlap at the start.
 Touching touching_pairs(const Assembly& assembly, double young_modulus, double friction, int threads);
 
 }  // namespace breccia

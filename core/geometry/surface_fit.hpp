@@ -21,7 +21,7 @@ struct SurfaceGap {
 
 enum class Fit { good, doubtful, wrong };
 
-/// Whether a body may be taken for its nominal one: a gap beyond what a rough surface explains is
+/// (B105): whether a body may be taken for its nominal one: a gap beyond what a rough surface explains is
 /// wrong. The lateral surface is where spheres reach the nominal one to within 0.3 mean radii:
 /// beyond that gap nothing is pressed.
 Fit judge(const SurfaceGap& gap);
