@@ -130,8 +130,10 @@ TEST_CASE(
   // the layers also carry some of what presses on the free skin beside them
   CHECK(balance.bonds > 0.95 * balance.least);
   CHECK(balance.bonds < balance.most);
-  CHECK(std::ranges::all_of(r.result.record.rows,
-                            [](const CurveRow& row) { return row.confining_stress_Pa == 9e6; }));
+  // what acts: the forces on the spheres, less what takes away their net force and moment
+  CHECK(std::ranges::all_of(r.result.record.rows, [](const CurveRow& row) {
+    return std::abs(row.confining_stress_Pa - 9e6) < 5e-3 * 9e6;
+  }));
   for (const CurveRow& row : r.result.record.rows)
     CHECK(row.volumetric_strain == doctest::Approx(row.axial_strain + 2 * row.radial_strain).epsilon(1e-9));
   CHECK(f.peak_stress > 9e6 + 1.1 * unconfined().findings.peak_stress);

@@ -108,9 +108,9 @@ TEST_CASE("impact case: what is wrong is refused with its place and the cure") {
        "c.toml:4: materials.poisson_ratio: must be from 0 to below 0.5");
   says(complaint("velocity = [0, 0, \"-10 m/s\"]", "spin = [\"1 Hz\", 0, 0]"),
        "c.toml:9: particle.spin: \"1 Hz\": write rad/s");
-  says(complaint("velocity = [0, 0, \"-10 m/s\"]\n", ""), "c.toml: nothing moves");
+  says(complaint("velocity = [0, 0, \"-10 m/s\"]\n", ""), "c.toml:7: particle.velocity: nothing moves");
   says(complaint("[0, 0, \"10 mm\"]", "[0, 0, \"9 mm\"]"),
-       "c.toml: particle 1 reaches 0.001 m into or beyond wall 1");
+       "c.toml:8: particle.position: particle 1 reaches 0.001 m into or beyond wall 1");
   says(complaint("[time]", "[contact]\nstiffness = \"1 N/m\"\n[time]"),
        "c.toml:5: contact.stiffness: belongs to law");
   says(complaint("[time]", "[materials.odd]\nyoung_modulus = 1\nrestitution = 0\npoisson_ratio = 0\n[time]"),

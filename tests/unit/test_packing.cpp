@@ -129,6 +129,8 @@ void check_like_real(const Body& body, const Specimen& s, double porosity_asked)
 std::string refusal(const Body& body, const PackRequest& r) {
   try {
     pack_spheres(body, r);
+  } catch (const BadPacking& e) {
+    return e.key + ": " + e.what();
   } catch (const BadInput& e) {
     return e.what();
   }

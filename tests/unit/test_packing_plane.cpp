@@ -145,6 +145,8 @@ void check_sizes(const Specimen& s, double spread) {
 std::string refusal(const Body& body, const PackRequest& r) {
   try {
     pack_spheres(body, r);
+  } catch (const BadPacking& e) {
+    return e.key + ": " + e.what();
   } catch (const BadInput& e) {
     return e.what();
   }
