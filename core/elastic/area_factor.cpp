@@ -32,9 +32,9 @@ ElasticResponse probe_with(const Assembly& a, const AreaFactorRequest& r, double
   return probe(a, bond_stiffness(law, a.particles, a.bonds), ratio, r.rough_platens, threads, touching);
 }
 
-/// (B104): (B14) with the bonds' own area through levels of the middle part instead of T of the whole body.
-/// T counts the poor neighbourhoods of walls and ends too, which makes its alpha 5 to 40 % too
-/// large for 13,000 to 100 spheres; this one is right to 6 % in packings.
+/// (B104): (B14) with the bonds' own area through levels of the middle part instead of T of the
+/// whole body. T counts the poor neighbourhoods of walls and ends too, which makes its alpha 5 to
+/// 40 % too large for 13,000 to 100 spheres; this one is right to 6 % in packings.
 double affine_of_levels(const Assembly& a, const Material& material, double kappa) {
   const BondLaw law = law_of(material, kappa);
   const double ratio = std::visit([](const auto& l) { return l.shear_ratio; }, law);

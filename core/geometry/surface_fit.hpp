@@ -21,9 +21,9 @@ struct SurfaceGap {
 
 enum class Fit { good, doubtful, wrong };
 
-/// (B105): whether a body may be taken for its nominal one: a gap beyond what a rough surface explains is
-/// wrong. The lateral surface is where spheres reach the nominal one to within 0.3 mean radii:
-/// beyond that gap nothing is pressed.
+/// (B105): whether a body may be taken for its nominal one: a gap beyond what a rough surface
+/// explains is wrong. The lateral surface is where spheres reach the nominal one to within 0.3 mean
+/// radii: beyond that gap nothing is pressed.
 Fit judge(const SurfaceGap& gap);
 /// The same of an offset of the middle, in mean radii.
 Fit judge_offset(double offset);

@@ -15,10 +15,10 @@ struct Stress {
 /// to hi. (S5.19); Bagi, Mech. Mater. 22 (1996) 165-177.
 Stress mean_stress_tensor(const World& world);
 
-/// Pa, (B106): of the pressure on the lateral surface what bonds and contacts hold up: the pressure that
-/// acts, less the part of it that pushes spheres which nothing holds. Sums over the free particles,
-/// of the outward forces of bonds and contacts over the inward ones of the pressure: equal where
-/// all is at rest. 0 without pressure. Called on every rank.
+/// Pa, (B106): of the pressure on the lateral surface what bonds and contacts hold up: the pressure
+/// that acts, less the part of it that pushes spheres which nothing holds. Sums over the free
+/// particles, of the outward forces of bonds and contacts over the inward ones of the pressure:
+/// equal where all is at rest. 0 without pressure. Called on every rank.
 double held_pressure(const World& world);
 
 /// (B89): fills the columns stress_normal and stress_shear of the particles, with F (x) arm over a

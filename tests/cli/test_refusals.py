@@ -83,7 +83,7 @@ class BadInput(ProgramTest):
         self.refused("specimen.csv:", "specimen.diameter", "axis", case=UCS.replace("[material]", 'axis = "x"\n[material]'))
 
     def test_no_bond(self):
-        self.refused_specimen(ROWS.replace("0.01\n", "0.009\n"), "specimen.csv", "no bond", "bonds.range")
+        self.refused_specimen(ROWS.replace("0.01\n", "0.009\n"), "specimen.csv", "specimen.diameter", "5 pieces apart")
 
     def test_bad_set(self):
         self.refused("--set", "bonds.rnge", '"bonds.range"', options=["--set", "bonds.rnge=0.1"])

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -71,7 +72,7 @@ criterion = "mohr-coulomb"
 [[material.at]]
 confinement = "60 MPa"
 limit_compressive_stress = ["30 MPa", "50 MPa", "80 MPa"]
-fracture_energy_normal = "4 J/m^2"
+damage_normal = 0.4
 [bonds]
 coordination = 10
 alpha = 0.79
@@ -133,9 +134,9 @@ frames = 5
   CHECK(c.materials[0].young_modulus == 27e9);
   CHECK(c.materials[0].limit_compressive_stress == std::array{20e6, 45e6, 70e6});
   CHECK(c.materials[3].limit_compressive_stress == std::array{30e6, 50e6, 80e6});
-  CHECK(*c.materials[3].fracture_energy_normal == 4);
-  CHECK(!c.materials[0].fracture_energy_normal);
-  CHECK(c.materials[3].damage_normal == 0);  // the energy stands in its place
+  CHECK(c.materials[3].damage_normal == 0.4);
+  CHECK(c.materials[0].damage_normal == 0.2);
+  CHECK(c.materials[1].damage_normal == doctest::Approx(0.2 + 0.2 * 4.5 / 60).epsilon(1e-12));  // on the line
   CHECK(c.materials[3].damage_shear == 0.2);
   CHECK(c.materials[3].criterion == Criterion::mohr_coulomb);
 }
@@ -302,6 +303,13 @@ TEST_CASE("case: --set takes TOML, or a bare word, the last one wins, it replace
   CHECK(at.materials.at(0).density == 7);
 }
 
+/// The resolved case without what it notes behind a confinement: which values of a table hold
+/// there. Read back, they are the case's own.
+std::string without_notes(const std::string& resolved) {
+  static const std::regex note("\\[\\[material\\.at\\]\\][^\n]*");
+  return std::regex_replace(resolved, note, "[[material.at]]");
+}
+
 TEST_CASE("case: the resolved case reads back to itself") {
   const ScratchFolder folder;
   folder.write("s.csv", "id,x_m,y_m,z_m,r_m\n1,0,0,0,1\n");
@@ -331,7 +339,7 @@ TEST_CASE("case: the resolved case reads back to itself") {
     INFO(once.resolved);
     std::filesystem::create_directories(folder.path / "elsewhere");
     const Case again = load_case(folder.write("elsewhere/r.toml", once.resolved), {}, t.test);
-    CHECK(again.resolved == once.resolved);
+    CHECK(without_notes(again.resolved) == without_notes(once.resolved));
     CHECK(again.test.confinement == once.test.confinement);
     CHECK(again.bonds.alpha == once.bonds.alpha);
     REQUIRE(again.materials.size() == once.materials.size());
