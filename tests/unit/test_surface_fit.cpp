@@ -40,8 +40,8 @@ TEST_CASE("surface fit: packings of every shape fit the body they were packed in
   for (const std::size_t spheres : {100, 400, 1000})
     for (const Body& body : {Body{Shape::cylinder, 0.05, 0, 0.1}, Body{Shape::disc, 0.0378, 0, 0.0219},
                              Body{Shape::box, 0.05, 0.03, 0.1}})
-      check_good(fit(take(pack_spheres(body, {.spheres = spheres, .seed = 3})), body));
-  PackRequest discs{.spheres = 300, .porosity = 0.12, .seed = 3, .space = Space::two_d};
+      check_good(fit(take(pack_spheres(body, {.spheres = spheres, .sizes = {}, .seed = 3})), body));
+  PackRequest discs{.spheres = 300, .sizes = {}, .porosity = 0.12, .seed = 3, .space = Space::two_d};
   const Body rectangle{Shape::box, 0.04, 1, 0.08}, circle{Shape::disc, 0.04, 0, 1};
   check_good(fit(take(pack_spheres(rectangle, discs)), rectangle, Space::two_d));
   check_good(fit(take(pack_spheres(circle, discs)), circle, Space::two_d));
@@ -76,7 +76,7 @@ TEST_CASE("surface fit: an offset of the middle is found, and takes no part in t
 
 TEST_CASE("surface fit: a core cut from a block is rough, and not wrong where its centres fill the body") {
   const Body block{Shape::box, 0.05, 0.05, 0.1}, core{Shape::cylinder, 0.04, 0, 0.1};
-  Specimen s = pack_spheres(block, {.spheres = 1500, .seed = 3});
+  Specimen s = pack_spheres(block, {.spheres = 1500, .sizes = {}, .seed = 3});
   std::erase_if(s.spheres, [](const auto& b) { return std::hypot(b.centre.x, b.centre.y) > 0.02; });
   const SurfaceFit f = fit(take(s), core);
   CHECK(f.across.roughness > 0.5);
