@@ -1,6 +1,7 @@
 #include "drivers/programs/command_line.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sched.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -106,6 +107,9 @@ int run_body(const std::string& program, int threads, const std::function<void()
                      2)
                : 0;  // see above
   ranks = mpi_init();
+  // glibc raises this threshold when a large block is freed; columns that then come from the heap
+  // lie so that integration takes twice as long
+  mallopt(M_MMAP_THRESHOLD, 128 * 1024);
   try {
     try_threads(threads);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
