@@ -1,10 +1,10 @@
 // What reads a test: gauges on the specimen and the platens, from where everything stood when
 // loading began.
 #pragma once
-
 #include "core/elastic/gauges.hpp"
-#include "core/loading/protocol.hpp"
+#include "core/loading/plan.hpp"
 #include "core/loading/recorder.hpp"
+#include "core/world/world.hpp"
 
 namespace breccia {
 

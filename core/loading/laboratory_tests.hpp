@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/base/scene_options.hpp"
-#include "core/loading/protocol.hpp"
+#include "core/loading/plan.hpp"
 
 namespace breccia {
 

@@ -3,7 +3,7 @@
 // other keeps. What is made anew from the case (laws, masses, plans) and what the next step works
 // out for itself is not in it.
 #pragma once
-#include "core/loading/protocol.hpp"
+#include "core/loading/load_test.hpp"
 #include "core/world/world.hpp"
 
 namespace breccia {

@@ -2,7 +2,7 @@
 #pragma once
 #include "core/loading/findings.hpp"
 #include "core/loading/laboratory_tests.hpp"
-#include "core/loading/protocol.hpp"
+#include "core/loading/load_test.hpp"
 
 namespace breccia {
 

@@ -4,8 +4,9 @@
 
 namespace breccia {
 
-/// One step: forces at the present positions, then kick and drift. Before it positions, forces and
-/// history belong to the moment n - 1 and n; velocities always to n - 1/2.
+/// One step: forces at the present positions, then kick (P2) (P9) and drift (P7). Between two calls
+/// positions stand at n, velocities and spins at n - 1/2, and forces and what bonds remember at
+/// n - 1, where they were last summed; `time` and `step` are those of n.
 void advance(World& world);
 
 }  // namespace breccia

@@ -4,13 +4,10 @@
 #include <malloc.h>
 #include <sched.h>
 #include <tbb/global_control.h>
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
@@ -19,6 +16,7 @@
 #include "core/base/error.hpp"
 #include "core/base/hold.hpp"
 #include "drivers/programs/ending.hpp"
+#include "drivers/programs/signals.hpp"
 #include "io/cases/case.hpp"
 #include "io/cases/keys_reference.hpp"
 #include "io/files/standard_streams.hpp"
@@ -27,26 +25,10 @@
 namespace breccia {
 namespace {
 
-std::atomic<bool> stop_asked = false, results_begun = false;
-
-void ask_to_stop(int) {
-  if (!results_begun) _exit(130);  // reading, packing, bonding: nothing is lost
-  stop_asked = true;
-}
-
 int end(const std::string& program, std::string_view what, int code) {
   // fputs: nobody is left to be told when this line cannot be written
   std::fputs(fmt::format("{}: {}\n", program, message_line(what)).c_str(), stderr);
   return code;
-}
-
-void set_signals() {
-  // both would end the program on the spot; ignored, the write fails, and its caller says so
-  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
-  struct sigaction action {};
-  action.sa_handler = ask_to_stop;
-  // SIGXCPU: a limit of time (ulimit -t) is near
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) sigaction(signal, &action, nullptr);
 }
 
 /// Of several ranks the root speaks. Another one has something to say only when it alone is in
@@ -65,10 +47,6 @@ int end_rank(const Ranks& ranks, const std::string& program, std::string_view wh
 
 }  // namespace
 
-bool interrupted() { return stop_asked; }
-
-void begin_results() { results_begun = true; }
-
 int available_cores() {
   cpu_set_t mask;
   CPU_ZERO(&mask);
@@ -78,7 +56,7 @@ int available_cores() {
 std::optional<int> read_command_line(CLI::App& app, int argc, char** argv) {
   open_standard_streams();
   end_in_order(app.get_name());
-  set_signals();
+  catch_signals();
   const bool speaks = ranks_of_launcher().is_root();
   try {
     app.parse(argc, argv);

@@ -24,12 +24,6 @@ struct CommandLine {
   bool explain = false, dry_run = false, force = false, quiet = false, resume = false;
 };
 
-/// True once SIGINT, SIGTERM, SIGUSR1 or SIGXCPU has come.
-bool interrupted();
-
-/// From here on a signal only makes `interrupted()` true; before, it ends the program at once.
-void begin_results();
-
 /// Cores of the affinity mask.
 int available_cores();
 

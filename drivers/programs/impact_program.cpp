@@ -1,4 +1,5 @@
 #include "drivers/programs/impact_program.hpp"
+#include "drivers/programs/signals.hpp"
 
 #include <fmt/format.h>
 

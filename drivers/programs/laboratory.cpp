@@ -16,6 +16,7 @@
 #include "drivers/programs/command_line.hpp"
 #include "drivers/programs/prepare_specimen.hpp"
 #include "drivers/programs/scene_of_case.hpp"
+#include "drivers/programs/signals.hpp"
 #include "io/cases/changed_keys.hpp"
 #include "io/files/atomic_write.hpp"
 #include "io/files/digest.hpp"

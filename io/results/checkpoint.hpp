@@ -16,7 +16,7 @@
 #include <optional>
 #include <string>
 
-#include "core/loading/protocol.hpp"
+#include "core/loading/load_test.hpp"
 
 namespace breccia {
 

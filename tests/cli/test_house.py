@@ -90,6 +90,20 @@ class House(unittest.TestCase):
                 if "studies" in b.parts and "studies" not in a.parts and len(a.parts) > 2]
         self.assertEqual(into, [])
 
+    def test_a_type_has_one_definition(self):
+        # the linker does not notice two of a name (one-definition rule): only what lies in a source
+        # file's own namespace may share one
+        homes = collections.defaultdict(set)
+        for path in sources(*FLOORS):
+            text = (SOURCE / path).read_text()
+            space = (re.findall(r"^namespace ([\w:]+) \{", text, re.MULTILINE) or [""])[-1]
+            own = "namespace {" in text
+            for name in re.findall(r"^(?:template <[^\n]*>\n)?(?:struct|class|enum class|enum) (?:alignas\([^)]*\)+ )?(\w+)[^;\n]*\{", text, re.MULTILINE):
+                if path.suffix == ".hpp" or not own:
+                    homes[f"{space}::{name}"].add(str(path))
+        self.assertGreater(len(homes), 100)
+        self.assertEqual({name: where for name, where in homes.items() if len(where) > 1}, {})
+
     @unittest.skipUnless(shutil.which("clang-format"), "clang-format is not installed")
     def test_format(self):
         files = sources(*FLOORS, "tests")

@@ -1,7 +1,7 @@
 // Laboratory tests on a specimen of 500 spheres: what a user would get, small enough for every day.
 #include <doctest/doctest.h>
 
-#include "core/loading/protocol.hpp"
+#include "core/loading/load_test.hpp"
 #include "core/loading/strength.hpp"
 #include "core/world/energies.hpp"
 #include "core/world/make_world.hpp"

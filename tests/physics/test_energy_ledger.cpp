@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "core/loading/protocol.hpp"
+#include "core/loading/load_test.hpp"
 #include "core/stepping/step.hpp"
 #include "core/world/energies.hpp"
 #include "core/world/energy_accounting.hpp"

@@ -3,8 +3,9 @@
 #include <doctest/doctest.h>
 
 #include "core/base/error.hpp"
-#include "core/loading/protocol.hpp"
-#include "core/loading/stability_checks.hpp"
+#include "core/checks/diagnosis.hpp"
+#include "core/checks/stability_checks.hpp"
+#include "core/loading/load_test.hpp"
 #include "core/stepping/step.hpp"
 #include "core/world/energies.hpp"
 #include "core/world/make_world.hpp"

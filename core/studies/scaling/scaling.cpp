@@ -9,7 +9,7 @@
 #include "core/base/process_memory.hpp"
 #include "core/distributed/distribute.hpp"
 #include "core/distributed/gather.hpp"
-#include "core/loading/protocol.hpp"
+#include "core/loading/load_test.hpp"
 #include "core/packing/packing.hpp"
 #include "core/tables/state_hash.hpp"
 #include "core/world/energies.hpp"

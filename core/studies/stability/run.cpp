@@ -7,8 +7,8 @@
 
 #include "core/base/error.hpp"
 #include "core/bonding/law_of_material.hpp"
+#include "core/checks/stability_checks.hpp"
 #include "core/elastic/area_factor.hpp"
-#include "core/loading/stability_checks.hpp"
 #include "core/stepping/step.hpp"
 #include "core/studies/stability/exact_limit.hpp"
 #include "core/world/energies.hpp"

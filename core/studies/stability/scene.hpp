@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/loading/protocol.hpp"
+#include "core/loading/load_test.hpp"
 #include "core/packing/packing.hpp"
 
 namespace breccia {

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/hold.hpp"
 #include "drivers/programs/command_line.hpp"
+#include "drivers/programs/signals.hpp"
 #include "drivers/studies/workprecision/journal.hpp"
 #include "drivers/studies/workprecision/options.hpp"
 #include "drivers/studies/workprecision/results.hpp"

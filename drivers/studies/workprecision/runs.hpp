@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "core/loading/protocol.hpp"
+#include "core/loading/load_test.hpp"
 #include "core/studies/workprecision/trial.hpp"
 #include "drivers/programs/prepare_specimen.hpp"
 

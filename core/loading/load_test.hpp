@@ -7,27 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "core/checks/stability_checks.hpp"
+#include "core/loading/plan.hpp"
 #include "core/loading/recorder.hpp"
-#include "core/loading/stability_checks.hpp"
 #include "core/world/world.hpp"
 
 namespace breccia {
-
-/// compression: platens towards each other. tension: apart. shear: the halves of a shear box along
-/// x, under `confinement` on its lid. hydrostatic: pressure alone, up to `confinement`.
-enum class Loading { compression, tension, shear, hydrostatic };
-
-struct LoadTest {
-  Loading loading = Loading::compression;
-  double confinement = 0;     ///< Pa
-  double platen_speed = 0.1;  ///< m/s, of each platen
-  double stop_strain = 0.02;  ///< platen travel over length since the end of stage 1
-  double stop_after_peak =
-      0.5;          ///< ends when the deviator has fallen by this fraction of its peak; 0 = never
-  int frames = 20;  ///< pictures of the state over the whole strain, and one at the end; 0 = none
-  std::vector<double> unload_at;  ///< platen strains at which the specimen is unloaded, then loaded again
-  double unload_to = 0.1;         ///< fraction of the deviator at which loading begins again
-};
 
 /// no_rest: the specimen did not come to rest under its confinement, so that nothing was loaded.
 enum class Stopped { strain, peak_drop, pressure, interrupted, no_rest };
@@ -45,12 +30,6 @@ struct LoadResult {
   double held_pressure = std::numeric_limits<double>::quiet_NaN();  ///< Pa, at the end of stage 1; NaN: none
   double run_time = 0;                                              ///< s, wall, of both stages
   std::vector<std::string> warnings;
-};
-
-/// Readings of gauges and platens when loading began.
-struct Datum {
-  double axial = 0, lateral = 0;   ///< strains
-  double approach = 0, shear = 0;  ///< m
 };
 
 /// Where the platens are going: on, back while the specimen is unloaded, on again.
@@ -94,7 +73,7 @@ struct LoadHooks {
 /// Runs a test from where it stands to its end, or until it is interrupted.
 /// @param state   of a test not begun, or with the world and the result from a checkpoint
 /// @param result  filled as the run goes, so that what there is survives an exception
-/// @throws SimulationBroke when a guard stops it, see core/loading/stability_checks.hpp
+/// @throws SimulationBroke when a guard stops it, see core/checks/stability_checks.hpp
 void run_load_test(World& world, const Assembly& assembly, const LoadTest& test, const LoadHooks& hooks,
                    LoadState& state, LoadResult& result);
 

@@ -34,12 +34,6 @@ void gather_surface_marks(StabilityChecks& checks, const World& world);
 /// A particle is lost beyond so many times the longest edge of the specimen's box.
 inline constexpr double lost_sizes = 10.0;  // (B59)
 
-/// (B59): the largest sqrt(k_n/m) d0 of all bonds, m their reduced mass: the speed at which a
-/// stretch of one runs along the stiffest of them. A particle as fast would strain its bonds by
-/// one, hundreds of times what any material stands.
-/// @returns m/s, of this rank's bonds; without bonds infinite
-double fastest_wave(const World& world);
-
 /// (B58): how many times the energy that can be there may seem to be there. Velocities stand half
 /// a step from the places, so that the sum of a mode of frequency w wavers between 1/(1 + s) and
 /// 1/(1 - s) of what it is, s = w dt/2: a ratio of (1 + s)/(1 - s) with s the step over the limit,
