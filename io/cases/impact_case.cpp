@@ -22,8 +22,8 @@ std::string_view word_of(const Key& key) { return key.name.substr(key.name.find(
 
 TomlNode* find_entry(TomlTable& table, std::string_view name) {
   const auto at =
-      std::find_if(table.begin(), table.end(), [&](const auto& entry) { return entry.first == name; });
-  return at == table.end() ? nullptr : &at->second;
+      std::find_if(table.begin(), table.end(), [&](const TomlEntry& entry) { return entry.name == name; });
+  return at == table.end() ? nullptr : &at->node;
 }
 
 // --- --set: the value takes its place in the tree before anything is read
@@ -32,8 +32,8 @@ TomlNode* find_entry(TomlTable& table, std::string_view name) {
 TomlNode& descend(TomlNode& node, const std::string& word, const std::string& whole) {
   if (auto* table = std::get_if<TomlTable>(&node.value)) {
     if (TomlNode* found = find_entry(*table, word)) return *found;
-    table->emplace_back(word, TomlNode{TomlTable{}, "--set", 0});
-    return table->back().second;
+    table->push_back({word, TomlNode{TomlTable{}, "--set", 0}});
+    return table->back().node;
   }
   if (auto* list = std::get_if<TomlArray>(&node.value)) {
     std::size_t number = 0;
@@ -63,7 +63,7 @@ void apply_set(TomlNode& root, const std::string& text) {
   if (TomlNode* found = find_entry(*table, word))
     *found = std::move(value);
   else
-    table->emplace_back(word, std::move(value));
+    table->push_back({word, std::move(value)});
 }
 
 // --- one table, by the declarations of its keys
@@ -154,8 +154,8 @@ struct Reader {
 
   const TomlNode* find(std::string_view name) const {
     const auto at =
-        std::find_if(root.begin(), root.end(), [&](const auto& entry) { return entry.first == name; });
-    return at == root.end() ? nullptr : &at->second;
+        std::find_if(root.begin(), root.end(), [&](const TomlEntry& entry) { return entry.name == name; });
+    return at == root.end() ? nullptr : &at->node;
   }
 
   void tables_known() const {
@@ -238,10 +238,10 @@ struct Reader {
       const TomlTable& table = as_table(entry, "wall", "[[wall]]");
       const Key& kind = wall_fields().front().key;
       const auto given =
-          std::find_if(table.begin(), table.end(), [](const auto& e) { return e.first == "kind"; });
+          std::find_if(table.begin(), table.end(), [](const auto& e) { return e.name == "kind"; });
       if (given == table.end())
         refuse(entry.place, kind.name, fmt::format("missing; {}", describe_values(kind)));
-      const std::string word = read_value(kind, given->second).word;
+      const std::string word = read_value(kind, given->node).word;
       const std::string lines = read_fields(all_of(wall_fields()), table, entry.place, word, w);
       w.wall.shape.kind = word == "plane"      ? WallKind::plane
                           : word == "cylinder" ? WallKind::cylinder

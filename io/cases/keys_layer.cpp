@@ -112,7 +112,7 @@ struct Walker {
         else if (word == "preset" || word == "at" || word == "law" || word == "criterion")
           refuse(child.place, name + "." + word, "not for one confinement; it belongs to the whole material");
         else
-          others.emplace_back(word, child);
+          others.push_back({word, child});
       }
       if (group.confinement < 0)
         refuse(entry.place, name, "confinement is missing; name the one that these keys are for");

@@ -26,9 +26,9 @@ struct Converter {
     if (const auto* table = node.as_table()) {
       TomlTable entries;
       for (const auto& [key, child] : *table)
-        entries.emplace_back(std::string(key.str()), convert(child, key.source().begin.line));
+        entries.push_back({std::string(key.str()), convert(child, key.source().begin.line)});
       std::stable_sort(entries.begin(), entries.end(),
-                       [](const auto& a, const auto& b) { return a.second.line < b.second.line; });
+                       [](const auto& a, const auto& b) { return a.node.line < b.node.line; });
       result.value = std::move(entries);
     } else if (const auto* array = node.as_array()) {
       TomlArray entries;

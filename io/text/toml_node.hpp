@@ -4,21 +4,26 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
 namespace breccia {
 
 struct TomlNode;
+struct TomlEntry;
 using TomlArray = std::vector<TomlNode>;
-using TomlTable = std::vector<std::pair<std::string, TomlNode>>;  ///< in the order of the file
-struct TomlDate {};                                               ///< no key is a date
+using TomlTable = std::vector<TomlEntry>;  ///< in the order of the file
+struct TomlDate {};                        ///< no key is a date
 
 struct TomlNode {
   std::variant<bool, std::int64_t, double, std::string, TomlDate, TomlArray, TomlTable> value;
   std::string place;  ///< "file:line", or "--set"
   std::size_t line = 0;
+};
+
+struct TomlEntry {
+  std::string name;
+  TomlNode node;
 };
 
 /// Reads a TOML file.

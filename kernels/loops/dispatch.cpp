@@ -45,12 +45,27 @@ std::string_view name_of(InstructionSet set) {
 
 namespace {
 
+/// What of x86-64-v3 and -v4 the loops are compiled to: compilers know the levels by name only of
+/// late.
+bool has_v3() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+         __builtin_cpu_supports("bmi2");
+}
+bool has_v4() {
+#if defined(__clang__)
+  return false;  // clang 16 drops the masks of libstdc++'s wide registers of 512 bits: select(m, a, b) is b
+#endif
+  return has_v3() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl");
+}
+
 /// @throws std::invalid_argument
 InstructionSet set_named(std::string_view wanted) {
   const std::array<std::tuple<std::string_view, InstructionSet, bool>, 3> sets{
       {{"x86-64", InstructionSet::x86_64, true},
-       {"x86-64-v3", InstructionSet::x86_64_v3, __builtin_cpu_supports("x86-64-v3") != 0},
-       {"x86-64-v4", InstructionSet::x86_64_v4, __builtin_cpu_supports("x86-64-v4") != 0}}};
+       {"x86-64-v3", InstructionSet::x86_64_v3, has_v3()},
+       {"x86-64-v4", InstructionSet::x86_64_v4, has_v4()}}};
   for (const auto& [name, set, here] : sets)
     if (here && wanted == name) return set;
   throw std::invalid_argument("BRECCIA_INSTRUCTION_SET: this processor has no \"" + std::string(wanted) +
@@ -62,8 +77,8 @@ InstructionSet set_named(std::string_view wanted) {
 InstructionSet best_instruction_set() {
   if (const char* wanted = std::getenv("BRECCIA_INSTRUCTION_SET"); wanted && *wanted)
     return set_named(wanted);
-  if (__builtin_cpu_supports("x86-64-v4")) return InstructionSet::x86_64_v4;
-  if (__builtin_cpu_supports("x86-64-v3")) return InstructionSet::x86_64_v3;
+  if (has_v4()) return InstructionSet::x86_64_v4;
+  if (has_v3()) return InstructionSet::x86_64_v3;
   return InstructionSet::x86_64;
 }
 

@@ -53,7 +53,7 @@ template <class RowOf>
   Four rows[width];
   for (std::size_t k = 0; k < width; ++k) rows[k] = row_of(k);
   const auto column = [&](std::size_t component) {
-    return Lanes([&](auto k) [[gnu::always_inline]] { return rows[k][component]; });
+    return Lanes([&](auto k) __attribute__((always_inline)) { return rows[k][component]; });
   };
   return {column(0), column(1), column(2)};
 #endif

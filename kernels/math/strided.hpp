@@ -14,12 +14,15 @@ public:
   class Iterator {
   public:
     using value_type = std::remove_const_t<T>;
+    using reference = T&;
+    using pointer = T*;
     using difference_type = std::ptrdiff_t;
+    using iterator_category = std::forward_iterator_tag;
     Iterator() = default;
-    Iterator(const Strided& values, std::size_t row) : values_(values), row_(row) {}
-    T& operator*() const { return values_[row_]; }
+    Iterator(T* at, std::size_t stride) : at_(at), stride_(stride) {}
+    T& operator*() const { return *at_; }
     Iterator& operator++() {
-      ++row_;
+      at_ += stride_;
       return *this;
     }
     Iterator operator++(int) {
@@ -27,11 +30,11 @@ public:
       ++*this;
       return before;
     }
-    bool operator==(const Iterator& other) const { return row_ == other.row_; }
+    bool operator==(const Iterator& other) const { return at_ == other.at_; }
 
   private:
-    Strided values_;
-    std::size_t row_ = 0;
+    T* at_ = nullptr;
+    std::size_t stride_ = 1;
   };
 
   constexpr Strided() = default;
@@ -51,8 +54,8 @@ public:
   constexpr T* data() const { return first_; }
   constexpr std::size_t stride() const { return stride_; }
   constexpr Strided first(std::size_t rows) const { return {first_, rows, stride_}; }
-  Iterator begin() const { return {*this, 0}; }
-  Iterator end() const { return {*this, size_}; }
+  Iterator begin() const { return {first_, stride_}; }
+  Iterator end() const { return {first_ + size_ * stride_, stride_}; }
 
 private:
   T* first_ = nullptr;

@@ -20,7 +20,7 @@ struct alignas(std::is_same_v<R, double> ? 32 : alignof(R)) Vec {
     x -= b.x, y -= b.y, z -= b.z;
     return *this;
   }
-  constexpr bool operator==(const Vec&) const = default;
+  bool operator==(const Vec&) const = default;
 };
 
 using Vec3 = Vec<double>;

@@ -24,7 +24,7 @@ struct BlockBonds {
     } else {
       const double* const first = values + address_of(block, place_of(column), b);
       if constexpr (block == 1)
-        return Lanes([&](auto k) [[gnu::always_inline]] { return first[k * stored_count]; });
+        return Lanes([&](auto k) __attribute__((always_inline)) { return first[k * stored_count]; });
       else
         return Lanes(first, std::experimental::element_aligned);
     }

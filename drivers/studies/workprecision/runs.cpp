@@ -58,7 +58,7 @@ bool names_confinement(const TomlNode& root) {
   for (const auto& [name, table] : *tables)
     if (const auto* keys = std::get_if<TomlTable>(&table.value); keys && name == "test")
       return std::any_of(keys->begin(), keys->end(),
-                         [](const auto& key) { return key.first == "confinement"; });
+                         [](const TomlEntry& key) { return key.name == "confinement"; });
   return false;
 }
 
