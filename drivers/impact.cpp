@@ -1,6 +1,6 @@
 #include "drivers/programs/impact_program.hpp"
-#include "io/cases/impact_case.hpp"
-#include "io/cases/keys_reference.hpp"
+#include "io/impact_cases/impact_case.hpp"
+#include "io/impact_cases/impact_reference.hpp"
 
 int main(int argc, char** argv) {
   return breccia::run_program("impact", "Free particles against each other and walls.", argc, argv,

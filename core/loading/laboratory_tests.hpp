@@ -29,9 +29,11 @@ struct LaboratoryTest {
   Support support = Support::ends;
   bool cylinder = true, box = false, disc = false;  ///< bodies that it takes in three dimensions
   bool three_d = true, two_d = false;
+  std::string_view other_space{};  ///< the test that is this one in the other dimension
   PressureRole pressure = PressureRole::none;
   bool rigid_sides = false;    ///< the lateral surface cannot move sideways
   bool always_rough = false;   ///< whatever test.platens says
+  bool smooth = false;         ///< test.platens is "smooth" if not given
   bool in_cycles = false;      ///< unloads and loads again where asked
   bool across = false;         ///< presses a disc along a diameter
   bool strain_ends_it = true;  ///< false: a pressure does
@@ -49,6 +51,7 @@ inline constexpr std::array<LaboratoryTest, 8> laboratory_tests{{
      .in_cycles = true},
     {.name = "triaxial",
      .about = "Triaxial compression of a cylinder: one run per confinement, and the envelope of the peaks.",
+     .other_space = "biaxial",
      .pressure = PressureRole::lateral,
      .in_cycles = true,
      .line = StrengthLine::mohr_coulomb},
@@ -58,6 +61,7 @@ inline constexpr std::array<LaboratoryTest, 8> laboratory_tests{{
      .cylinder = false,
      .disc = true,
      .two_d = true,
+     .smooth = true,
      .across = true,
      .uniform_strain = false,
      .tensile = true},
@@ -69,6 +73,7 @@ inline constexpr std::array<LaboratoryTest, 8> laboratory_tests{{
      .about = "Hydrostatic compression of a cylinder up to a pressure.",
      .loading = Loading::hydrostatic,
      .pressure = PressureRole::needed,
+     .smooth = true,
      .strain_ends_it = false,
      .uniform_strain = false},
     {.name = "tension",
@@ -93,7 +98,9 @@ inline constexpr std::array<LaboratoryTest, 8> laboratory_tests{{
      .box = true,
      .three_d = false,
      .two_d = true,
+     .other_space = "triaxial",
      .pressure = PressureRole::lateral,
+     .smooth = true,
      .in_cycles = true,
      .line = StrengthLine::mohr_coulomb},
 }};

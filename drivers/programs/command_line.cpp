@@ -18,8 +18,8 @@
 #include "drivers/programs/ending.hpp"
 #include "drivers/programs/signals.hpp"
 #include "io/cases/case.hpp"
-#include "io/cases/keys_reference.hpp"
 #include "io/files/standard_streams.hpp"
+#include "io/reference/keys_reference.hpp"
 #include "io/text/message_line.hpp"
 
 namespace breccia {

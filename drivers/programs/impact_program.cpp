@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "io/cases/impact_case.hpp"
 #include "io/files/atomic_write.hpp"
 #include "io/files/digest.hpp"
 #include "io/files/run_folder.hpp"
+#include "io/impact_cases/impact_case.hpp"
 #include "io/results/impact_results.hpp"
 #include "io/results/progress.hpp"
 

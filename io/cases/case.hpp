@@ -101,7 +101,4 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
 /// "file:line" of a key, or the case's file where it was not given.
 std::string place_of(const Case& c, std::string_view key);
 
-/// The keys that a test accepts, one a line: name, what is valid, default, meaning. For `--help`.
-std::string describe_keys(const std::string& test);
-
 }  // namespace breccia

@@ -61,30 +61,41 @@ PackRequest& pack_of(Case& c) {
   return *c.specimen.pack;
 }
 
+/// A default that only some tests have.
+constexpr std::optional<std::string_view> own_default(bool has, std::string_view text) {
+  return has ? std::optional(text) : std::nullopt;
+}
+
+/// Whether test.confinement acts on the lateral surface.
+constexpr bool presses_sides(const LaboratoryTest& t) {
+  return t.pressure == PressureRole::lateral || t.loading == Loading::hydrostatic;
+}
+
 constexpr std::array<double, 3> three(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
 // clang-format off: a declaration reads best in few lines
 using C = Case;
 using M = Material;
 using R = Reading;
+using T = LaboratoryTest;
 constexpr std::array keys{
     // --- the specimen
     Key{.name = "specimen.file",
         .kind = Kind::text,
-        .not_for = "pack",
+        .packs = false,
         .reason = "breccia-pack makes the specimen",
         .meaning = "spheres, .csv (id,x_m,y_m,z_m,r_m) or .mdpa, from the case's folder",
         .store = [](C& c, const R& r) { c.specimen.file = r.word; }},
     Key{.name = "specimen.sha256",
         .kind = Kind::text,
-        .not_for = "pack",
+        .packs = false,
         .reason = "breccia-pack makes the specimen",
         .meaning = "of the file; a run is refused where it has changed since",
         .store = [](C& c, const R& r) { c.specimen.sha256 = r.word; }},
     Key{.name = "specimen.shape",
         .kind = Kind::word,
         .default_text = "cylinder",
-        .standard_for = "bts=disc",
+        .default_of = [](const T& t) { return own_default(!t.cylinder && !t.box, "disc"); },
         .default_2d = "box",
         .words = "cylinder disc box",
         .meaning = "of the nominal body; in 2-D box if not given",
@@ -92,7 +103,7 @@ constexpr std::array keys{
     Key{.name = "specimen.dimensions",
         .kind = Kind::whole_number,
         .default_text = "3",
-        .standard_for = "biaxial=2",
+        .default_of = [](const T& t) { return own_default(!t.three_d, "2"); },
         .range = {2, 3, false, false},
         .meaning = "2: discs 1 m thick in a plane; box: a rectangle, disc: a circle",
         .store = [](C& c, const R& r) { c.specimen.space = r.whole == 2 ? Space::two_d : Space::three_d; }},
@@ -344,18 +355,18 @@ constexpr std::array keys{
         .kind = Kind::quantities,
         .dimension = dimension::stress,
         .default_text = "0 Pa",
-        .standard_for = "hydrostatic= shear=",
+        .default_of = [](const T& t) { return own_default(t.pressure == PressureRole::needed, ""); },
         .range = at_least(0),
-        .not_for = "bts usc tension",
+        .refused_by = [](const T& t) { return t.pressure == PressureRole::none; },
         .reason = "this test sets no pressure",
         .meaning = "one run for each; hydrostatic: reached at the end; shear: on the lid of the box",
         .store = [](C& c, const R& r) { c.test.confinement = r.numbers; }},
     Key{.name = "test.platens",
         .kind = Kind::word,
         .default_text = "rough",
-        .standard_for = "bts=smooth biaxial=smooth hydrostatic=smooth",
+        .default_of = [](const T& t) { return own_default(t.smooth, "smooth"); },
         .words = "rough smooth",
-        .not_for = "shear",
+        .refused_by = [](const T& t) { return t.always_rough; },
         .reason = "the halves of a shear box hold every direction",
         .meaning = "rough: no lateral motion of the end layers",
         .store = [](C& c, const R& r) { c.test.rough_platens = r.word == "rough"; }},
@@ -368,14 +379,14 @@ constexpr std::array keys{
     Key{.name = "test.stop_strain",
         .default_text = "0.02",
         .range = between(0, 1),
-        .not_for = "hydrostatic",
+        .refused_by = [](const T& t) { return !t.strain_ends_it; },
         .reason = "a hydrostatic test ends at its pressure",
         .meaning = "platen travel over H (bts: over D; shear: shift over D) at which a run ends",
         .store = [](C& c, const R& r) { c.test.stop_strain = r.number; }},
     Key{.name = "test.stop_after_peak",
         .default_text = "0.5",
         .range = from_to_below(0, 1),
-        .not_for = "hydrostatic",
+        .refused_by = [](const T& t) { return !t.strain_ends_it; },
         .reason = "a hydrostatic test ends at its pressure",
         .meaning = "fraction of the peak deviator by which it has fallen when a run ends; 0: never",
         .store = [](C& c, const R& r) { c.test.stop_after_peak = r.number; }},
@@ -383,21 +394,22 @@ constexpr std::array keys{
         .kind = Kind::quantities,
         .range = between(0, 1),
         .rising = true,
-        .not_for = "bts usc hydrostatic shear",
+        .refused_by = [](const T& t) { return !t.in_cycles; },
         .reason = "this test is not run in cycles",
         .meaning = "platen strains at which the specimen is unloaded, then loaded again",
         .store = [](C& c, const R& r) { c.test.unload_at = r.numbers; }},
     Key{.name = "test.unload_to",
         .default_text = "0.1",
         .range = from_to_below(0, 1),
-        .not_for = "bts usc hydrostatic shear",
+        .refused_by = [](const T& t) { return !t.in_cycles; },
         .reason = "this test is not run in cycles",
         .meaning = "fraction of the deviator at which loading begins again",
         .store = [](C& c, const R& r) { c.test.unload_to = r.number; }},
     Key{.name = "test.load_axis",
         .kind = Kind::word,
         .words = "x y z",
-        .not_for = "ucs triaxial usc hydrostatic tension shear biaxial pack",
+        .refused_by = [](const T& t) { return !t.across; },
+        .packs = false,
         .reason = "loading is along specimen.axis",
         .meaning = "bts: the diameter in the file along which the disc is pressed",
         .store = [](C& c, const R& r) { c.test.load_axis = r.word[0]; }},
@@ -405,7 +417,7 @@ constexpr std::array keys{
         .kind = Kind::word,
         .default_text = "radius",
         .words = "radius voronoi",
-        .not_for = "bts usc tension shear ucs",
+        .refused_by = [](const T& t) { return !presses_sides(t); },
         .reason = "nothing presses on the mantle",
         .meaning = "what pressure on a sphere of the mantle acts on: pi r^2, scaled, or its Voronoi face",
         .store =

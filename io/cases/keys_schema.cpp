@@ -29,18 +29,17 @@ std::vector<std::string> split_words(std::string_view words) {
   return result;
 }
 
-bool accepts(const Key& key, std::string_view test) {
-  const auto refused = split_words(key.not_for);
-  return std::find(refused.begin(), refused.end(), test) == refused.end();
+bool takes_specimen_only(std::string_view program) { return !find_laboratory_test(program); }
+
+bool accepts(const Key& key, std::string_view program) {
+  const LaboratoryTest* const test = find_laboratory_test(program);
+  if (!test) return key.packs;
+  return !key.refused_by || !key.refused_by(*test);
 }
 
-std::string_view default_text_of(const Key& key, std::string_view test, Space space) {
-  for (std::string_view rest = key.standard_for; !rest.empty();) {
-    const std::string_view one = rest.substr(0, rest.find(' '));
-    rest.remove_prefix(std::min(one.size() + 1, rest.size()));
-    const std::size_t equals = one.find('=');
-    if (one.substr(0, equals) == test) return one.substr(equals + 1);
-  }
+std::string_view default_text_of(const Key& key, std::string_view program, Space space) {
+  if (const LaboratoryTest* const test = find_laboratory_test(program); test && key.default_of)
+    if (const auto own = key.default_of(*test)) return *own;
   return space == Space::two_d && !key.default_2d.empty() ? key.default_2d : key.default_text;
 }
 

@@ -3,11 +3,13 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/loading/laboratory_tests.hpp"
 #include "io/cases/case.hpp"
 #include "io/text/units.hpp"
 
@@ -42,8 +44,9 @@ struct Key {
   Kind kind = Kind::quantity;
   Dimension dimension{};
   std::string_view default_text{};  ///< the default as one writes it; empty: none
-  std::string_view standard_for{};  ///< where a test has another: "bts=disc biaxial=smooth"
-  std::string_view default_2d{};    ///< where a 2-D scene has another and the test has none
+  /// where a test has another default, or none (an empty one)
+  std::optional<std::string_view> (*default_of)(const LaboratoryTest&) = nullptr;
+  std::string_view default_2d{};  ///< where a 2-D scene has another and the test has none
   Range range{};
   RangeWhere where{};
   std::string_view words{};       ///< valid words
@@ -51,8 +54,9 @@ struct Key {
   std::size_t count = 0;          ///< of quantities; 0: one or more
   bool rising = false;            ///< quantities never fall
   std::string_view instead_of{};  ///< the key that this one replaces
-  std::string_view not_for{};     ///< tests that refuse it
-  std::string_view reason{};      ///< the reason
+  bool (*refused_by)(const LaboratoryTest&) = nullptr;  ///< a test that has no use for it
+  bool packs = true;                                    ///< breccia-pack accepts it
+  std::string_view reason{};                            ///< why it is refused
   std::string_view meaning{};
   std::string_view law{};  ///< a parameter that this law alone has
   void (*store)(Case&, const Reading&) = nullptr;
@@ -68,7 +72,10 @@ std::vector<std::string> key_names(std::string_view test, std::string_view table
 /// The key that excludes this one (fracture energy or damage, range or coordination), or nullptr.
 const Key* rival(const Key&);
 
-bool accepts(const Key&, std::string_view test);
+/// Whether a program is none of the laboratory tests: breccia-pack, which takes a specimen alone.
+bool takes_specimen_only(std::string_view program);
+/// @param program  "ucs", ..., "pack"
+bool accepts(const Key&, std::string_view program);
 std::string_view default_text_of(const Key&, std::string_view test, Space space = Space::three_d);
 std::vector<std::string> split_words(std::string_view words);
 

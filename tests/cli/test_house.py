@@ -90,6 +90,16 @@ class House(unittest.TestCase):
                 if "studies" in b.parts and "studies" not in a.parts and len(a.parts) > 2]
         self.assertEqual(into, [])
 
+    def test_no_code_asks_for_the_name_of_a_test(self):
+        # what differs between tests is a fact in their table, so that a new one is a new row
+        table = (SOURCE / "core/loading/laboratory_tests.hpp").read_text()
+        names = re.findall(r'\.name = "(\w+)"', table)
+        self.assertGreater(len(names), 7)
+        word = re.compile("== *\"(" + "|".join(names) + ")\"|\"(" + "|".join(names) + ")\" *==")
+        asks = [f"{path}:{number}" for path in sources("core", "io", "drivers/programs")
+                for number, line in enumerate((SOURCE / path).read_text().splitlines(), 1) if word.search(line)]
+        self.assertEqual(asks, [])
+
     def test_a_type_has_one_definition(self):
         # the linker does not notice two of a name (one-definition rule): only what lies in a source
         # file's own namespace may share one

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "io/cases/case.hpp"
 #include "io/cases/keys_schema.hpp"
+#include "io/reference/keys_reference.hpp"
 #include "scratch_folder.hpp"
 
 using namespace breccia;

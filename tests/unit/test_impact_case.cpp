@@ -3,9 +3,9 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "io/cases/impact_case.hpp"
-#include "io/cases/impact_keys.hpp"
 #include "io/cases/keys_schema.hpp"
+#include "io/impact_cases/impact_case.hpp"
+#include "io/impact_cases/impact_keys.hpp"
 #include "scratch_folder.hpp"
 
 using namespace breccia;

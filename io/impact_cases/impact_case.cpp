@@ -1,12 +1,12 @@
-#include "io/cases/impact_case.hpp"
+#include "io/impact_cases/impact_case.hpp"
 
 #include <algorithm>
 #include <charconv>
 
 #include "core/base/error.hpp"
-#include "io/cases/impact_keys.hpp"
 #include "io/cases/keys_value.hpp"
 #include "io/cases/keys_write.hpp"
+#include "io/impact_cases/impact_keys.hpp"
 #include "io/text/suggest.hpp"
 #include "io/text/text_file.hpp"
 #include "io/text/toml_depth.hpp"

@@ -1,20 +1,17 @@
-#include "io/cases/keys_reference.hpp"
+#include "io/reference/keys_reference.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/loading/laboratory_tests.hpp"
 #include "io/cases/accuracy.hpp"
-#include "io/cases/impact_keys.hpp"
 #include "io/cases/keys_material.hpp"
 #include "io/cases/keys_write.hpp"
+#include "io/reference/keys_markdown.hpp"
 #include "kernels/laws/bond_laws.hpp"
 
 namespace breccia {
 namespace {
-
-std::string_view table_of(const Key& key) { return key.name.substr(0, key.name.rfind('.')); }
-std::string_view word_of(const Key& key) { return key.name.substr(key.name.rfind('.') + 1); }
 
 /// Whether scenes of a test, or packings, may have two dimensions.
 bool has_plane(std::string_view program) {
@@ -25,18 +22,6 @@ bool has_plane(std::string_view program) {
 /// Two dimensions where the case does not say otherwise.
 Space usual_space(std::string_view test) {
   return default_text_of(*find_key("specimen.dimensions"), test) == "2" ? Space::two_d : Space::three_d;
-}
-
-std::string code(std::string_view text) { return fmt::format("`{}`", text); }
-
-/// A cell of a table in markdown: no star begins an emphasis, no bar ends the cell.
-std::string cell(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '*' || c == '|') result += '\\';
-    result += c;
-  }
-  return result;
 }
 
 /// The default of a key, and below it each condition under which it is another.
@@ -92,36 +77,6 @@ std::string describe_default(const Key& key, std::string_view test) {
   return text;
 }
 
-void add_row(std::string& text, std::string_view name, std::string_view valid, std::string_view default_text,
-             std::string_view who, std::string_view meaning) {
-  text += fmt::format("| {} | {} | {} | {} | {} |\n", code(name), cell(valid), cell(default_text), who,
-                      cell(meaning));
-}
-
-void add_heading(std::string& text, std::string_view table, std::string_view who) {
-  text +=
-      fmt::format("\n### {}\n\n| key | valid | default | {} | meaning |\n| --- | --- | --- | --- | --- |\n",
-                  code(table), who);
-}
-
-template <class T>
-void add_fields(std::string& text, std::span<const Field<T>> fields, std::string_view left,
-                std::string_view right) {
-  std::string_view table;
-  for (const Field<T>& field : fields) {
-    const Key& key = field.key;
-    if (table_of(key) != table) {
-      table = table_of(key);
-      add_heading(text, fmt::format("{}{}{}", left, table, right), "of");
-    }
-    const std::string default_text = field.required             ? "none: must be given"
-                                     : key.default_text.empty() ? "none"
-                                                                : code(key.default_text);
-    add_row(text, word_of(key), describe_values(key), default_text, field.kinds.empty() ? "all" : field.kinds,
-            key.meaning);
-  }
-}
-
 }  // namespace
 
 std::vector<ConditionalDefault> conditional_defaults(const Key& key, std::string_view test) {
@@ -145,7 +100,7 @@ std::string describe_keys(const std::string& test) {
       fmt::format("keys of a case for breccia-{} (a quantity: \"3.8 GPa\", or a bare number in SI)\n", test);
   std::string_view table;
   for (const Key& key : all_keys()) {
-    if (!accepts(key, test) || (test == "pack" && !key.name.starts_with("specimen."))) continue;
+    if (!accepts(key, test) || (takes_specimen_only(test) && !key.name.starts_with("specimen."))) continue;
     if (table_of(key) != table) table = table_of(key), text += fmt::format("\n[{}]\n", table);
     text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), describe_values(key),
                         describe_default(key, test), key.meaning);
@@ -171,15 +126,6 @@ std::string case_reference() {
     add_row(text, word_of(key), describe_values(key), all_defaults(key),
             material ? laws_of(key) : takers(key), key.meaning);
   }
-  return text;
-}
-
-std::string impact_reference() {
-  std::string text;
-  add_fields(text, scene_fields(), "[", "]");
-  add_fields(text, material_fields(), "[", ".NAME]");
-  add_fields(text, particle_fields(), "[[", "]]");
-  add_fields(text, wall_fields(), "[[", "]]");
   return text;
 }
 

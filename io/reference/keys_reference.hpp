@@ -20,11 +20,11 @@ struct ConditionalDefault {
 /// @param test  "ucs", ...; a 2-D default that this test never has is left out
 std::vector<ConditionalDefault> conditional_defaults(const Key& key, std::string_view test);
 
+/// The keys that a test accepts, one a line: name, what is valid, default, meaning. For `--help`.
+std::string describe_keys(const std::string& test);
+
 /// Every key of a laboratory test and of breccia-pack as tables in markdown: name, what is valid,
 /// default with all its conditions, programs or laws that take it, meaning.
 std::string case_reference();
-
-/// The keys of breccia-impact likewise.
-std::string impact_reference();
 
 }  // namespace breccia

@@ -1,4 +1,4 @@
-#include "io/cases/impact_keys.hpp"
+#include "io/impact_cases/impact_keys.hpp"
 
 #include <array>
 

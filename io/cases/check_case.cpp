@@ -1,0 +1,246 @@
+#include "io/cases/check_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "io/cases/keys_material.hpp"
+#include "io/cases/keys_write.hpp"
+#include "io/text/suggest.hpp"
+
+namespace breccia {
+namespace {
+
+/// What one key says about another. Places are those of the keys.
+struct Checks : CaseLaid {
+  std::string place(std::string_view name) const {
+    const auto given = layer.find(name);
+    return given == layer.end() || given->second.place.empty() ? file : given->second.place;
+  }
+  bool has(std::string_view name) const { return layer.contains(name); }
+  [[noreturn]] void no(std::string_view name, const std::string& text) const {
+    refuse(place(name), name, text);
+  }
+
+  bool is_across() const { return test && test->across; }
+  /// Where a case of the other dimension is run.
+  std::string elsewhere(std::string_view dimensions) const {
+    return test->other_space.empty() ? ""
+                                     : fmt::format(" (in {}: breccia-{})", dimensions, test->other_space);
+  }
+
+  void specimen() const {
+    if (!c.specimen.file && !c.specimen.pack)
+      no(!test ? "specimen.pack" : "specimen.file",
+         !test ? "missing; write [specimen.pack] with spheres = N"
+               : "missing; name a .csv or .mdpa file, or write [specimen.pack]");
+    body();
+    // guessed wrongly, a disc is pressed along its own axis
+    const auto axis = layer.find("specimen.axis");
+    if (is_across() && c.specimen.file && (axis == layer.end() || axis->second.place.empty()))
+      no("specimen.axis",
+         "missing; a Brazilian test must know the axis of the disc in the file: \"x\", \"y\" or \"z\"");
+    if (c.specimen.file) return;
+    if (has("specimen.sha256")) no("specimen.sha256", "belongs to specimen.file; leave it out");
+    packing();
+  }
+
+  void body() const {
+    const Body& body = c.specimen.body;
+    const bool box = body.shape == Shape::box, disc = body.shape == Shape::disc;
+    if (c.specimen.space == Space::two_d) return body_in_plane();
+    if (!has("specimen.diameter")) no("specimen.diameter", "missing; give the nominal diameter, \"150 mm\"");
+    if (!has("specimen.height"))
+      no("specimen.height", "missing; give the nominal height along the axis, \"300 mm\"");
+    if (box && !has("specimen.depth"))
+      no("specimen.depth", "missing; a box has its width along x as diameter, and a depth");
+    if (!box && has("specimen.depth")) no("specimen.depth", "belongs to shape = \"box\"; leave it out");
+    if (is_across() && !disc) no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
+    if (test && !test->three_d)
+      no("specimen.dimensions", fmt::format("a {} test has two; valid: 2{}", test->name, elsewhere("three")));
+    if (!test || is_across()) return;
+    const bool boxes = test->box;
+    if (disc || (box && !boxes)) {
+      const std::string text = fmt::format("{}: specimen.shape \"{}\" does not go with breccia-{}; valid: {}",
+                                           place("specimen.shape"),
+                                           disc  ? "disc"
+                                           : box ? "box"
+                                                 : "cylinder",
+                                           test->name, boxes ? "\"cylinder\", \"box\"" : "\"cylinder\"");
+      throw BadInput(text);
+    }
+  }
+
+  void body_in_plane() const {
+    const Shape shape = c.specimen.body.shape;
+    if (test && !test->two_d)
+      no("specimen.dimensions",
+         fmt::format("breccia-{} has three; valid: 3{}", test->name, elsewhere("two")));
+    if (shape == Shape::cylinder)
+      no("specimen.shape", "a 2-D scene has no cylinder; valid: \"box\" (a rectangle), \"disc\" (a circle)");
+    if (is_across() && shape != Shape::disc)
+      no("specimen.shape", "a Brazilian test presses a disc; valid: \"disc\"");
+    if (!has("specimen.diameter"))
+      no("specimen.diameter",
+         "missing; give the diameter of the circle or the width of the rectangle, \"50 mm\"");
+    if (shape == Shape::box && !has("specimen.height"))
+      no("specimen.height", "missing; give the height of the rectangle, \"100 mm\"");
+    if (shape == Shape::disc && test && !is_across())
+      no("specimen.shape", fmt::format("breccia-{} presses a rectangle; valid: \"box\"", test->name));
+    if (shape == Shape::disc && has("specimen.height"))
+      no("specimen.height", "a disc in a 2-D scene is 1 m thick; leave it out");
+    if (has("specimen.depth")) no("specimen.depth", "a 2-D scene is 1 m thick; leave it out");
+  }
+
+  void packing() const {
+    if (has("specimen.pack.genesis_pressure") && c.specimen.space != Space::two_d)
+      no("specimen.pack.genesis_pressure",
+         "presses discs in a plane; write specimen.dimensions = 2 or leave it out");
+    if (c.specimen.axis != 'z') no("specimen.axis", "a packing made here has its axis along z; valid: \"z\"");
+    if (c.specimen.centre) no("specimen.centre", "belongs to specimen.file; a packing made here is centred");
+    if (!has("specimen.pack.spheres") && c.specimen.pack->sizes.kind != SizeDistribution::Kind::sieves)
+      no("specimen.pack.spheres", "missing; give the number of spheres");
+    const SizeDistribution& sizes = c.specimen.pack->sizes;
+    const bool sieves = sizes.kind == SizeDistribution::Kind::sieves;
+    const std::string_view spread = "specimen.pack.sizes.spread", openings = "specimen.pack.sizes.openings",
+                           passing = "specimen.pack.sizes.passing", finest = "specimen.pack.sizes.finest";
+    if (sieves && has(spread)) no(spread, "belongs to kind \"lognormal\" or \"uniform\"; leave it out");
+    for (const auto name : {openings, passing}) {
+      if (sieves && !has(name)) no(name, "missing; kind \"sieves\" has openings and passing");
+      if (!sieves && has(name)) no(name, "belongs to kind = \"sieves\"; leave it out");
+    }
+    if (!sieves && has(finest)) no(finest, "belongs to kind = \"sieves\"; leave it out");
+    if (!sieves) return;
+    if (has("specimen.pack.genesis_pressure"))
+      no("specimen.pack.genesis_pressure",
+         "makes the discs grow, and sieves are lengths; give specimen.pack.porosity instead");
+    if (sizes.sieve_openings.size() != sizes.sieve_passing.size() || sizes.sieve_openings.size() < 2)
+      no(passing, fmt::format("{} values for {} openings; give as many of both, two or more",
+                              sizes.sieve_passing.size(), sizes.sieve_openings.size()));
+    for (std::size_t i = 1; i < sizes.sieve_openings.size(); ++i)
+      if (!(sizes.sieve_openings[i] > sizes.sieve_openings[i - 1]))
+        no(openings, "two openings are equal; join them");
+    if (sizes.sieve_passing.back() != 1)
+      no(passing,
+         fmt::format("must end with 1, not {}: all passes the last sieve", sizes.sieve_passing.back()));
+  }
+
+  void loading() const {
+    if (test->pressure == PressureRole::needed) {
+      if (!has("test.confinement"))
+        no("test.confinement", test->loading == Loading::shear
+                                   ? "missing; give the normal stresses on the lid, [\"1 MPa\", \"5 MPa\"]"
+                                   : "missing; give the pressure to reach, [\"650 MPa\"]");
+      for (double p : c.test.confinement)
+        if (!(p > 0)) no("test.confinement", "must be more than 0 Pa");
+    }
+    for (std::size_t k = 1; k < c.test.confinement.size(); ++k)
+      for (std::size_t j = 0; j < k; ++j)
+        if (same_confinement(c.test.confinement[j], c.test.confinement[k]))
+          no("test.confinement", fmt::format("{} stands twice; leave one out",
+                                             format_quantity(c.test.confinement[k], dimension::stress)));
+    for (double strain : c.test.unload_at)
+      if (strain > c.test.stop_strain)
+        no("test.unload_at", fmt::format("{:g} lies beyond test.stop_strain {:g}: the run ends before; raise "
+                                         "test.stop_strain or leave it out",
+                                         strain, c.test.stop_strain));
+    if (c.test.load_axis == c.specimen.axis)
+      no("test.load_axis", "is the disc's own axis (specimen.axis); a disc is pressed across it");
+    if (test->pressure != PressureRole::must_be_zero) return;
+    for (double p : c.test.confinement)
+      if (p != 0)
+        no("test.confinement",
+           fmt::format("{}: an unconfined test has none; leave it out, or use breccia-triaxial",
+                       format_quantity(p, dimension::stress)));
+  }
+
+  /// A key that is given and that nothing reads; with its default it does no harm.
+  void idle(std::string_view name, bool is_used, std::string_view because) const {
+    const auto given = layer.find(name);
+    if (is_used || given == layer.end() || given->second.place.empty()) return;
+    const Key& key = *find_key(name);
+    const std::string_view default_text = defaults.of(key).value;
+    if (!default_text.empty() &&
+        write_value(key, given->second.reading) == write_value(key, read_default_text(key, default_text)))
+      return;
+    no(name, fmt::format("{}; leave it out", because));
+  }
+
+  /// A request that cannot happen, because what it belongs to is not there.
+  void idle_keys() const {
+    idle("test.unload_to", !c.test.unload_at.empty(), "without test.unload_at nothing is unloaded");
+    idle("test.load_axis", c.specimen.space != Space::two_d, "in 2-D a disc is pressed along specimen.axis");
+    idle("time.mass_factor", c.mass_scaling, "without time.mass_scaling = true no sphere is made heavier");
+    idle("damping.form", c.damping.contact > 0, "with damping.contact = 0 there is no dashpot");
+    idle("damping.scheme", c.damping.contact > 0, "with damping.contact = 0 there is no dashpot");
+    idle("damping.rotation", c.features.rotation, "with features.rotation = false nothing spins");
+    idle("output.stress", c.frames > 0, "with output.frames = 0 there is no picture to hold it");
+    const auto presses = [](double p) { return p > 0; };
+    idle("test.skin_weights", std::any_of(c.test.confinement.begin(), c.test.confinement.end(), presses),
+         "without a confinement nothing presses on the mantle");
+  }
+
+  /// Ranges that another key makes narrower.
+  void narrower_ranges() const {
+    for (const Key& key : all_keys()) {
+      const auto given = layer.find(key.name), other = layer.find(key.where.key);
+      if (key.where.key.empty() || given == layer.end() || other == layer.end()) continue;
+      const Reading& value = other->second.reading;
+      if ((value.word.empty() ? fmt::format("{}", value.whole) : value.word) != key.where.value) continue;
+      check_range(key, given->second.reading, key.where.range, place(key.name),
+                  fmt::format(" ({} {})", key.where.key, key.where.value));
+    }
+  }
+
+  void law(const std::string& name, const std::string& where) const {
+    const bool of_bonds = facts_of(name).has("normal_stiffness");
+    if (of_bonds && c.bonds.alpha_rule != AlphaRule::number)
+      no("bonds.alpha",
+         fmt::format("law {} has stiffnesses of its own, no area to scale; leave it out", quote(name)));
+    if (of_bonds && c.specimen.space != Space::two_d)
+      refuse(where, "material.law",
+             fmt::format("law {} is one of discs; set specimen.dimensions = 2", quote(name)));
+  }
+
+  /// A [[material.at]] that no run uses is a slip of the pen, unless --set has chosen other
+  /// confinements.
+  /// @param used  confinements of the table that runs take their values from
+  void confinements(const std::vector<ConfinementLayer>& groups, const std::vector<double>& used) const {
+    if (const Key* key = find_key("test.confinement"); !accepts(*key, test->name) && !groups.empty())
+      refuse(groups.front().place, "material.at", fmt::format("{}; leave it out", key->reason));
+    if (place("test.confinement") == "--set") return;
+    std::string list;
+    for (double p : c.test.confinement)
+      list += (list.empty() ? "" : ", ") + format_quantity(p, dimension::stress);
+    for (const ConfinementLayer& group : groups) {
+      const bool is_used = std::any_of(used.begin(), used.end(),
+                                       [&](double p) { return same_confinement(p, group.confinement); });
+      if (!is_used)
+        refuse(group.place, "material.at",
+               fmt::format("no run has confinement {}; test.confinement has: {}",
+                           format_quantity(group.confinement, dimension::stress), list));
+    }
+  }
+};
+
+}  // namespace
+
+void check_specimen(const CaseLaid& laid) { Checks{laid}.specimen(); }
+
+void check_ranges(const CaseLaid& laid) { Checks{laid}.narrower_ranges(); }
+
+void check_test(const CaseLaid& laid) {
+  const Checks checks{laid};
+  checks.loading();
+  checks.idle_keys();
+}
+
+void check_confinements(const CaseLaid& laid, const std::vector<ConfinementLayer>& groups,
+                        const std::vector<double>& used) {
+  Checks{laid}.confinements(groups, used);
+}
+
+void check_law(const CaseLaid& laid, const Given& law) { Checks{laid}.law(law.reading.word, law.place); }
+
+}  // namespace breccia
