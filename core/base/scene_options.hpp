@@ -22,8 +22,8 @@ enum class AreaRule { minimum, harmonic, polyhedron, voronoi };
 enum class ScatterKind { atomic, private_sums, gather };
 
 /// Which particles the loading holds. ends: layers at both ends. strips: two strips along the
-/// mantle of a disc on edge. halves: the mantle's two halves and the end layers with them, a direct
-/// shear box.
+/// lateral surface of a disc on edge. halves: the two halves of the lateral surface and the end
+/// layers with them, a direct shear box.
 enum class Support { ends, strips, halves };
 
 /// How the dashpots of bonds and contacts enter the step: docs/model.md, "Time step and mass
@@ -35,8 +35,8 @@ inline std::string_view name_of(DampingScheme scheme) {
   return scheme == DampingScheme::capped ? "capped" : scheme == DampingScheme::summed ? "summed" : "explicit";
 }
 
-/// What fluid pressure on a particle of the skin acts on: pi r^2, or its share of the mantle
-/// (Voronoi).
+/// What fluid pressure on a particle of the lateral surface acts on: pi r^2, or its share of the
+/// whole (Voronoi).
 enum class SkinWeights { radius, voronoi };
 
 }  // namespace breccia

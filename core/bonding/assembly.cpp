@@ -36,7 +36,7 @@ struct Holder {
         return std::abs(x.x) < half_width && std::hypot(x.x, x.z) + s.radius > edge ? side : free_part;
       case Support::halves:
         return std::abs(x.z) > edge || (std::abs(x.z) > half_width &&
-                                        at_mantle(*body, Space::three_d, x, s.radius, mean_radius))
+                                        at_lateral_surface(*body, Space::three_d, x, s.radius, mean_radius))
                    ? side
                    : free_part;
     }
@@ -46,7 +46,7 @@ struct Holder {
 
 Holder holder_of(const Body& body, Support grip, double mean_radius) {
   // (B61): strips of half-width 0.15 R, 2.5 mean radii deep: of the spheres that reach that near
-  // the mantle, as the skin is found. With centres that near only, the strips crush their way in at
+  // the lateral surface. With centres that near only, the strips crush their way in at
   // 2.4 MPa where the disc would split at 2.8 (cement, 15,070 spheres)
   if (grip == Support::strips)
     return {grip, 0.5 * body.diameter - 2.5 * mean_radius, 0.075 * body.diameter, &body, mean_radius};
@@ -126,7 +126,7 @@ void set_bonds(Assembly& a, const std::vector<Link>& links, const Features& feat
 /// are dropped.
 void set_areas(Assembly& a, const BondingRule& rule, const Features& features, int threads) {
   const auto areas = [&](AreaRule which) {
-    return bond_areas(which, a.particles, a.bonds, a.skin, a.body, a.space, threads,
+    return bond_areas(which, a.particles, a.bonds, a.lateral, a.body, a.space, threads,
                       a.body.on_edge ? 'y' : 'z');
   };
   std::vector<double> area = areas(rule.area), strength;
@@ -159,7 +159,7 @@ double Assembly::section() const {
   return body.shape == Shape::box ? body.diameter * body.depth : 0.25 * pi * body.diameter * body.diameter;
 }
 
-double Assembly::mantle() const {
+double Assembly::lateral_surface() const {
   if (space == Space::two_d) return 2.0 * body.height * body.depth;  // the two sides of a rectangle
   return body.height * (body.shape == Shape::box ? 2.0 * (body.diameter + body.depth) : pi * body.diameter);
 }
@@ -171,7 +171,8 @@ double Assembly::load_section() const {
   return grip == Support::strips ? 0.5 * pi * body.diameter * body.height : section();  // (B75)
 }
 
-bool at_mantle(const Body& body, Space space, const Vec3& centre, double radius, double mean_radius) {
+bool at_lateral_surface(const Body& body, Space space, const Vec3& centre, double radius,
+                        double mean_radius) {
   const double reach = radius + 0.3 * mean_radius;
   if (space == Space::two_d && body.shape == Shape::box)
     return std::abs(centre.x) + reach > 0.5 * body.diameter;
@@ -205,7 +206,8 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
     const Part part = part_of(s);
     if (part == free_part) p.free = row + 1;
     if (part != upper_part) a.first_top = row + 1;
-    if (at_mantle(body, a.space, s.centre, s.radius, a.mean_radius)) a.skin.push_back(static_cast<Row>(row));
+    if (at_lateral_surface(body, a.space, s.centre, s.radius, a.mean_radius))
+      a.lateral.push_back(static_cast<Row>(row));
   }
   if (p.free == 0 || a.first_top == p.free || a.first_top == n)
     fail<BadInput>(

@@ -1,5 +1,5 @@
 // A specimen made ready: particles in their order, bonds between them, the layers that platens
-// hold, the skin. It is made once; every run of a series starts from a copy.
+// hold, the lateral surface. It is made once; every run of a series starts from a copy.
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -29,7 +29,7 @@ struct Assembly {
   ParticleTable particles;
   BondTable bonds;            ///< areas with alpha = 1; stiffness and damping not yet set
   std::size_t first_top = 0;  ///< rows [particles.free, first_top) lower layer, [first_top, size) upper layer
-  std::vector<Row> skin;      ///< particles at the mantle, rising rows
+  std::vector<Row> lateral;   ///< particles at the lateral surface, rising rows
   std::vector<char> loose;    ///< per particle, 1 where it hangs on nothing; empty: not looked for
   double mean_radius = 0;     ///< m
   double layer = 0;           ///< m, thickness of the held layers or strips
@@ -38,8 +38,8 @@ struct Assembly {
   std::size_t dropped_bonds = 0;  ///< in range, but without an area (no common Voronoi face)
   std::size_t short_bonds = 0;    ///< nested spheres whose strains use a floor for their length
 
-  double section() const;  ///< m^2, nominal, across the axis (of a disc on edge: its face)
-  double mantle() const;   ///< m^2, nominal
+  double section() const;          ///< m^2, nominal, across the axis (of a disc on edge: its face)
+  double lateral_surface() const;  ///< m^2, nominal
   double volume() const { return section() * body.height; }
   double length() const;        ///< m, between the ends that are pressed
   double load_section() const;  ///< m^2, by which a load becomes the stress that the test reports
@@ -51,8 +51,8 @@ inline double strain_length_of(double rest_length, double radius_sum) {
   return std::max(rest_length, 0.2 * radius_sum);
 }
 
-/// True where a sphere reaches the nominal mantle to within 0.3 mean radii. (B63)
-bool at_mantle(const Body& body, Space space, const Vec3& centre, double radius, double mean_radius);
+/// True where a sphere reaches the nominal lateral surface to within 0.3 mean radii. (B63)
+bool at_lateral_surface(const Body& body, Space space, const Vec3& centre, double radius, double mean_radius);
 
 /// @param specimen  loaded along z, middle at the origin
 /// @param features  those that run; columns are made for them

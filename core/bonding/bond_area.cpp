@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-void check(const ParticleTable& p, const BondTable& b, std::span<const Row> skin) {
+void check(const ParticleTable& p, const BondTable& b, std::span<const Row> lateral) {
   for (std::size_t k = 0; k < p.size; ++k)
     if (!(p.radius[k] > 0.0) || !std::isfinite(p.radius[k]))
       fail<BadInput>("specimen: particle {} has a radius of {} m; radii must be above zero", p.gid[k],
@@ -21,8 +21,8 @@ void check(const ParticleTable& p, const BondTable& b, std::span<const Row> skin
   for (std::size_t k = 0; k < b.size; ++k)
     if (b.row_lo[k] >= p.size || b.row_hi[k] >= p.size || b.row_lo[k] == b.row_hi[k])
       fail<BadInput>("bond {}: joins rows {} and {} of {} particles", k, b.row_lo[k], b.row_hi[k], p.size);
-  for (const Row row : skin)
-    if (row >= p.size) fail<BadInput>("skin: row {} of {} particles", row, p.size);
+  for (const Row row : lateral)
+    if (row >= p.size) fail<BadInput>("lateral: row {} of {} particles", row, p.size);
 }
 
 /// Section of a cylinder of radius r, or of a strip.
@@ -69,28 +69,31 @@ double shape_ratio(double n, Space space) {
 /// whatever the packing.
 double inner_neighbours(Space space) { return space == Space::three_d ? 11.0 : 6.0; }
 
-std::vector<double> polyhedron_areas(const ParticleTable& p, const BondTable& b, std::span<const Row> skin,
+std::vector<double> polyhedron_areas(const ParticleTable& p, const BondTable& b, std::span<const Row> lateral,
                                      Space space) {
   std::vector<double> area = pair_areas(p, b, space, equivalent);
   std::vector<double> count(p.size), sum(p.size), gamma(p.size);
   for (std::size_t k = 0; k < b.size; ++k)
     for (const Row row : {b.row_lo[k], b.row_hi[k]}) count[row] += 1.0, sum[row] += area[k];
-  std::vector<char> at_skin(p.size, 0);
-  for (const Row row : skin) at_skin[row] = 1;
+  std::vector<char> at_lateral(p.size, 0);
+  for (const Row row : lateral) at_lateral[row] = 1;
   const double inner = inner_neighbours(space);
   for (std::size_t row = 0; row < p.size; ++row) {
     if (count[row] == 0.0) continue;
     const double r = p.radius[row];
     const double surface = space == Space::three_d ? 4.0 * pi * r * r : 2.0 * pi * r;
-    // a particle at the mantle is surrounded in part: each neighbour gets what it would get inside
+    // a particle at the lateral surface is surrounded in part: each neighbour gets what it would
+    // get inside
     const double ratio =
-        at_skin[row] ? shape_ratio(inner, space) * count[row] / inner : shape_ratio(count[row], space);
+        at_lateral[row] ? shape_ratio(inner, space) * count[row] / inner : shape_ratio(count[row], space);
     gamma[row] = ratio * surface / sum[row];  // (S4.30)
   }
   for (std::size_t k = 0; k < b.size; ++k) {
     const Row i = b.row_lo[k], j = b.row_hi[k];
     // (S4.32)
-    area[k] *= at_skin[i] == at_skin[j] ? 0.5 * (gamma[i] + gamma[j]) : at_skin[i] ? gamma[j] : gamma[i];
+    area[k] *= at_lateral[i] == at_lateral[j] ? 0.5 * (gamma[i] + gamma[j])
+               : at_lateral[i]                ? gamma[j]
+                                              : gamma[i];
   }
   return area;
 }
@@ -112,16 +115,16 @@ std::vector<double> voronoi_areas(const ParticleTable& p, const BondTable& b, co
 }  // namespace
 
 std::vector<double> bond_areas(AreaRule rule, const ParticleTable& particles, const BondTable& bonds,
-                               std::span<const Row> skin, const Body& body, Space space, int threads,
+                               std::span<const Row> lateral, const Body& body, Space space, int threads,
                                char axis) {
-  check(particles, bonds, skin);
+  check(particles, bonds, lateral);
   switch (rule) {
     case AreaRule::minimum:
       break;
     case AreaRule::harmonic:
       return pair_areas(particles, bonds, space, equivalent);
     case AreaRule::polyhedron:
-      return polyhedron_areas(particles, bonds, skin, space);
+      return polyhedron_areas(particles, bonds, lateral, space);
     case AreaRule::voronoi:
       return voronoi_areas(particles, bonds, body, space, threads, axis);
   }

@@ -15,11 +15,11 @@ namespace breccia {
 /// r_i r_j/(r_i + r_j) (S4.31); polyhedron: that, corrected so that the areas of a particle add up
 /// to the surface of a regular polyhedron around it (S4.30) (S4.32); voronoi: the face between the
 /// radical Voronoi cells, 0 for a pair without one (B10).
-/// @param skin  rows at the mantle, for polyhedron
+/// @param lateral  rows at the lateral surface, for polyhedron
 /// @param axis  of the body, for voronoi: 'z', or 'y' for a cylinder or disc that lies
 /// @throws BadInput: a row that is not there, a radius not above zero; voronoi: as voronoi_cells
 std::vector<double> bond_areas(AreaRule rule, const ParticleTable& particles, const BondTable& bonds,
-                               std::span<const Row> skin, const Body& body, Space space, int threads,
+                               std::span<const Row> lateral, const Body& body, Space space, int threads,
                                char axis = 'z');
 
 }  // namespace breccia

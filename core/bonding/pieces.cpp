@@ -117,7 +117,7 @@ Connection leave_out_loose(Assembly& a, bool contacts, int threads) {
     a.loose[row] = 1;
     ++c.loose;
   }
-  std::erase_if(a.skin, [&](Row row) { return a.loose[row] != 0; });
+  std::erase_if(a.lateral, [&](Row row) { return a.loose[row] != 0; });
   return c;
 }
 

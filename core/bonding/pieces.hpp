@@ -27,7 +27,7 @@ struct Connection {
 };
 
 /// Looks at the bonds of an assembly, and leaves out what hangs on nothing: it belongs to no gauge
-/// and to no pressed surface (Assembly::loose, Assembly::skin).
+/// and to no pressed surface (Assembly::loose, Assembly::lateral).
 /// @param contacts  whether the run has contacts: pieces that touch then carry load through each
 ///         other
 Connection leave_out_loose(Assembly& assembly, bool contacts, int threads);

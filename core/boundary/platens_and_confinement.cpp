@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/bonding/mantle_area.hpp"
+#include "core/bonding/lateral_area.hpp"
 
 namespace breccia {
 
@@ -79,18 +79,18 @@ Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid)
   Confinement c;
   c.rigid = rigid;
   c.plane = a.space == Space::two_d;
-  c.rows = a.skin;
-  c.surface = a.mantle();
+  c.rows = a.lateral;
+  c.surface = a.lateral_surface();
   c.force.resize(c.rows.size());
   if (weights == SkinWeights::voronoi) {
-    c.weight = mantle_areas(a.particles, c.rows, a.body, a.space);
+    c.weight = lateral_areas(a.particles, c.rows, a.body, a.space);
     return c;
   }
   for (const Row row : c.rows) {
     const double r = a.particles.radius[row];
     c.weight.push_back(c.plane ? 2.0 * r : std::numbers::pi * r * r);  // (B71)
   }
-  // each side of a rectangle, or the whole mantle, has its nominal surface
+  // each side of a rectangle, or the whole lateral surface, has its nominal surface
   const auto scale = [&](auto belongs, double surface) {
     double sum = 0.0;
     for (std::size_t k = 0; k < c.rows.size(); ++k)
@@ -109,17 +109,17 @@ Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid)
 
 double lateral_cover(const Assembly& a) {
   double sum = 0.0;
-  for (const Row row : a.skin) {
+  for (const Row row : a.lateral) {
     const double r = a.particles.radius[row];
     sum += a.space == Space::two_d ? 2.0 * r * a.body.depth : std::numbers::pi * r * r;
   }
-  return sum / a.mantle();
+  return sum / a.lateral_surface();
 }
 
 bool is_one_sphere_wide(const Assembly& a) {
   const auto& x = a.particles.reference_position;
   const double width = 1e-6 * a.body.diameter;
-  return std::all_of(a.skin.begin(), a.skin.end(), [&](Row row) {
+  return std::all_of(a.lateral.begin(), a.lateral.end(), [&](Row row) {
     return std::abs(x[row].x) < width && (a.space == Space::two_d || std::abs(x[row].y) < width);
   });
 }

@@ -1,4 +1,4 @@
-// What acts on a specimen from outside: two platens, and what surrounds its mantle.
+// What acts on a specimen from outside: two platens, and what surrounds its lateral surface.
 // docs/model.md, "Laboratory tests".
 #pragma once
 #include <array>
@@ -45,12 +45,12 @@ Platens make_platens(const Assembly& assembly, const ParticleTable& particles, b
 void drive_platens(Platens& platens, const ParticleTable& particles, const Partition& partition,
                    std::size_t first_top, double dt);
 
-/// What surrounds the mantle: a fluid under pressure, forces p w on each particle of the skin with
-/// weights w that add up to the nominal surface; or a rigid wall that lets it slide along the axis
-/// only.
+/// What surrounds the lateral surface: a fluid under pressure, forces p w on each of its particles
+/// with weights w that add up to the nominal surface; or a rigid wall that lets it slide along the
+/// axis only.
 struct Confinement {
-  bool rigid = false;   ///< x and y of the skin are fixed
-  bool plane = false;   ///< two dimensions: the skin is two sides, normal to x
+  bool rigid = false;   ///< x and y of the lateral surface are fixed
+  bool plane = false;   ///< two dimensions: the lateral surface is two sides, normal to x
   double pressure = 0;  ///< Pa, asked for now; of a rigid wall the mean reaction
   double acting = 0;    ///< Pa, inward forces of this step over the nominal surface; of a rigid wall the same
   double surface = 0;   ///< m^2, nominal
@@ -74,8 +74,8 @@ bool is_one_sphere_wide(const Assembly& assembly);
 /// A sphere on the axis has no lateral direction and gets no force.
 void apply_confinement(Confinement& confinement, ParticleTable& particles, const Partition& partition);
 
-/// A rigid wall takes up the lateral forces of the skin, all of them summed: called when they are
-/// complete. (B73)
+/// A rigid wall takes up the lateral forces of the lateral surface, all of them summed: called when
+/// they are complete. (B73)
 void restrain_laterally(Confinement& confinement, ParticleTable& particles, const Partition& partition);
 
 }  // namespace breccia

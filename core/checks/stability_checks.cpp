@@ -100,8 +100,8 @@ double work_since(StabilityChecks& g, const World& w) {
   std::vector<double> blocks;
   return work + sum_listed(w.partition, c.rows, 1, blocks, [&](std::size_t k) {
            const Vec3& x = w.particles.position[c.rows[k]];
-           const double by_pressure = 0.5 * dot(g.push[k] + c.force[k], x - g.skin[k]);
-           g.skin[k] = x;
+           const double by_pressure = 0.5 * dot(g.push[k] + c.force[k], x - g.lateral[k]);
+           g.lateral[k] = x;
            g.push[k] = c.force[k];
            return by_pressure;
          });
@@ -232,7 +232,7 @@ StabilityChecks make_stability_checks(const World& w) {
   g.noise = sum_pairs(w.partition, b, w.options.threads, blocks,
                       [&](std::size_t k) { return 0.5 * b.stiffness[k] * rounding * rounding; });
   g.platen_work = w.platens.work;
-  for (const Row row : w.confinement.rows) g.skin.push_back(w.particles.position[row]);
+  for (const Row row : w.confinement.rows) g.lateral.push_back(w.particles.position[row]);
   g.push = w.confinement.force;
   return g;
 }
@@ -240,7 +240,7 @@ StabilityChecks make_stability_checks(const World& w) {
 void gather_surface_marks(StabilityChecks& g, const World& w) {
   const Ranks& ranks = w.partition.ranks;
   if (ranks.alone()) return;
-  for (std::vector<Vec3>* noted : {&g.skin, &g.push}) {
+  for (std::vector<Vec3>* noted : {&g.lateral, &g.push}) {
     std::vector<Vec3> all = gather_owned_entries<Vec3>(w.partition, w.confinement.rows, *noted);
     if (ranks.is_root()) *noted = std::move(all);
   }

@@ -10,16 +10,17 @@ namespace breccia {
 
 /// What is remembered from look to look.
 struct StabilityChecks {
-  Vec3 centre;                   ///< m, of the box around the spheres at the start
-  double size = 0;               ///< m, its longest edge
-  double farthest = 0;           ///< m, largest coordinate
-  double fastest = 0;            ///< m/s, what the stiffest bond for its mass carries, see fastest_wave
-  double shortest = 0;           ///< m, rest length of a bond
-  double accounted = 0;          ///< J, kinetic and stored: what was there and the work since
-  double max_energy = 0;         ///< J, the most there ever was
-  double noise = 0;              ///< J, that rounding of the coordinates alone stores
-  double platen_work = 0;        ///< J, at the last look
-  std::vector<Vec3> skin, push;  ///< m, N: places of the skin at the last look, and the pressure on it
+  Vec3 centre;             ///< m, of the box around the spheres at the start
+  double size = 0;         ///< m, its longest edge
+  double farthest = 0;     ///< m, largest coordinate
+  double fastest = 0;      ///< m/s, what the stiffest bond for its mass carries, see fastest_wave
+  double shortest = 0;     ///< m, rest length of a bond
+  double accounted = 0;    ///< J, kinetic and stored: what was there and the work since
+  double max_energy = 0;   ///< J, the most there ever was
+  double noise = 0;        ///< J, that rounding of the coordinates alone stores
+  double platen_work = 0;  ///< J, at the last look
+  std::vector<Vec3> lateral,
+      push;  ///< m, N: places of the lateral surface at the last look, and the pressure on it
 };
 
 /// A run whose ledger is out by so much of the work put in has lost its way.
@@ -28,7 +29,7 @@ inline constexpr double out_of_balance = 0.1;
 /// A specimen as it stands now, with the velocities that it has. Called on every rank.
 StabilityChecks make_stability_checks(const World& world);
 
-/// Brings to the root what each rank's checks have noted of its part of the skin.
+/// Brings to the root what each rank's checks have noted of its part of the lateral surface.
 void gather_surface_marks(StabilityChecks& checks, const World& world);
 
 /// A particle is lost beyond so many times the longest edge of the specimen's box.

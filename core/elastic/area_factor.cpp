@@ -24,7 +24,7 @@ double affine_alpha(double fabric, double kappa, Space space) {
   return (4.0 + kappa) / (2.0 + 3.0 * kappa) / fabric;
 }
 
-/// The specimen with alpha = 1: what its ends and skin answer. (B15)
+/// The specimen with alpha = 1: what its ends and lateral surface answer. (B15)
 ElasticResponse probe_with(const Assembly& a, const AreaFactorRequest& r, double kappa, int threads,
                            const Touching& touching) {
   const BondLaw law = law_of(r.material, kappa);

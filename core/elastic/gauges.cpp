@@ -41,7 +41,7 @@ Gauge lateral_gauge(const Assembly& a) {
   if (a.body.on_edge)
     for (Row row = 0; row < x.size(); ++row) add(row);
   else
-    for (const Row row : a.skin) add(row);
+    for (const Row row : a.lateral) add(row);
   if (g.rows.empty()) return g;
   mean = (1.0 / static_cast<double>(g.rows.size())) * mean;
   if (x_only) mean.y = 0.0;

@@ -18,8 +18,8 @@ struct Gauge {
 /// rows where fewer than two heights lie there. (B76)
 Gauge axial_gauge(const Assembly& assembly);
 
-/// Least-squares widening across the axis: of the skin at mid-height (middle 40 %); of a disc on
-/// edge that of all particles there, along x. No rows where nothing lies there. (B78)
+/// Least-squares widening across the axis: of the lateral surface at mid-height (middle 40 %); of a
+/// disc on edge that of all particles there, along x. No rows where nothing lies there. (B78)
 Gauge lateral_gauge(const Assembly& assembly);
 
 /// Strain of the gauge between reference and present positions.

@@ -29,15 +29,15 @@ void check(const Body& body, Space space, char axis) {
 }
 
 /// A wall at `distance`, or as far out as the farthest centre.
-void add_wall(BodyWalls& walls, const Vec3& normal, double distance, bool mantle,
+void add_wall(BodyWalls& walls, const Vec3& normal, double distance, bool lateral,
               std::span<const Vec3> centres) {
   double farthest = distance;
   for (const Vec3& x : centres) farthest = std::max(farthest, dot(normal, x));
   walls.grown = std::max(walls.grown, farthest - distance);
-  walls.planes.push_back({normal, farthest, mantle});
+  walls.planes.push_back({normal, farthest, lateral});
 }
 
-void add_round_mantle(BodyWalls& walls, double nominal, char axis, std::span<const Vec3> centres) {
+void add_round_lateral(BodyWalls& walls, double nominal, char axis, std::span<const Vec3> centres) {
   const auto across = [axis](const Vec3& x) { return axis == 'z' ? x.y : x.z; };
   double radius = nominal;
   for (const Vec3& x : centres) radius = std::max(radius, std::hypot(x.x, across(x)));
@@ -58,7 +58,7 @@ BodyWalls walls_of(const Body& body, Space space, char axis, std::span<const Vec
   const bool lies = axis == 'y', flat = space == Space::two_d;
   // a standing cylinder cut by the x-z plane is a rectangle
   if (is_round(body) && (!flat || lies)) {
-    add_round_mantle(walls, 0.5 * body.diameter, axis, centres);
+    add_round_lateral(walls, 0.5 * body.diameter, axis, centres);
   } else {
     for (const double s : {-1.0, 1.0}) add_wall(walls, {s, 0.0, 0.0}, 0.5 * body.diameter, true, centres);
     if (!flat)
@@ -70,7 +70,7 @@ BodyWalls walls_of(const Body& body, Space space, char axis, std::span<const Vec
   return walls;
 }
 
-double mantle_of(const Body& body, Space space, char axis) {
+double lateral_of(const Body& body, Space space, char axis) {
   check(body, space, axis);
   if (space == Space::two_d) return is_round(body) && axis == 'y' ? pi * body.diameter : 2.0 * body.height;
   return body.height * (is_round(body) ? pi * body.diameter : 2.0 * (body.diameter + body.depth));

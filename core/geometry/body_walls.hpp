@@ -12,7 +12,7 @@ namespace breccia {
 struct WallPlane {
   Vec3 normal;      ///< unit, out of the body
   double distance;  ///< m, from the origin
-  bool mantle;      ///< false: a flat end
+  bool lateral;     ///< false: a flat end
 };
 
 struct BodyWalls {
@@ -20,14 +20,14 @@ struct BodyWalls {
   double grown = 0;  ///< m, largest move of a wall beyond its nominal place
 };
 
-/// Walls of a body around the origin, moved out where a centre lies outside. A round mantle becomes
-/// a prism of 360 sides with the section of the circle. plane: those walls that cross the x-z plane
-/// at right angles.
+/// Walls of a body around the origin, moved out where a centre lies outside. A round lateral
+/// surface becomes a prism of 360 sides with the section of the circle. plane: those walls that
+/// cross the x-z plane at right angles.
 /// @param axis  'z', or 'y' for a cylinder or disc that lies
 /// @throws BadInput: a size that is not above zero, an axis that is neither
 BodyWalls walls_of(const Body& body, Space space, char axis, std::span<const Vec3> centres);
 
-/// Nominal area of the mantle, m^2 (plane: its length times 1 m).
-double mantle_of(const Body& body, Space space, char axis);
+/// Nominal area of the lateral surface, m^2 (plane: its length times 1 m).
+double lateral_of(const Body& body, Space space, char axis);
 
 }  // namespace breccia

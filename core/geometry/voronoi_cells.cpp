@@ -55,7 +55,7 @@ Scaled scaled(std::span<const Vec3> position, std::span<const double> radius,
   for (const Vec3& p : position) s.x.push_back(per_unit * p);
   for (const double r : radius) s.r.push_back(per_unit * r);
   for (const WallPlane& w : walls) {
-    s.walls.push_back({w.normal, per_unit * w.distance, w.mantle});
+    s.walls.push_back({w.normal, per_unit * w.distance, w.lateral});
     // a prism reaches beyond its own sides by 4e-5 of their distance
     const double reach = 1.0 + 1.001 * per_unit * w.distance;
     const Vec3 far = reach * w.normal;
@@ -136,7 +136,7 @@ VoronoiCells cells_of_rows(const Scaled& s, Space space, std::size_t first, std:
       if (behind[k] <= first_wall_id) {
         const WallPlane& w = s.walls[static_cast<std::size_t>(first_wall_id - behind[k])];
         const double distance = s.unit * (w.distance - dot(w.normal, s.x[row]));
-        out.wall_faces.push_back({here, to_area * area[k], distance, w.mantle});
+        out.wall_faces.push_back({here, to_area * area[k], distance, w.lateral});
       } else if (behind[k] > static_cast<int>(row)) {
         out.faces.push_back({here, static_cast<Row>(behind[k]), to_area * area[k]});
       }

@@ -19,7 +19,7 @@ struct WallFace {
   Row row;
   double area;      ///< m^2
   double distance;  ///< m, of the particle's centre from the wall
-  bool mantle;      ///< false: a flat end
+  bool lateral;     ///< false: a flat end
 };
 
 struct VoronoiCells {
@@ -30,10 +30,10 @@ struct VoronoiCells {
 };
 
 /// Cells of all particles, which fill the body without gap or overlap: sum of volumes = nominal
-/// volume. A round mantle is a prism of 360 sides with the section of the circle: flat walls are
-/// the same for all cells, so that both ends of a pair see one face. Spheres that stick out of a
-/// wall are cut by it; a wall that a centre lies outside of is moved out to that centre. plane:
-/// cells of discs in the x-z plane; areas are lengths times 1 m, volumes areas times 1 m.
+/// volume. A round lateral surface is a prism of 360 sides with the section of the circle: flat
+/// walls are the same for all cells, so that both ends of a pair see one face. Spheres that stick
+/// out of a wall are cut by it; a wall that a centre lies outside of is moved out to that centre.
+/// plane: cells of discs in the x-z plane; areas are lengths times 1 m, volumes areas times 1 m.
 /// @param body  middle at the origin
 /// @param axis  'z', or 'y' for a cylinder or disc that lies
 /// @throws BadInput: sizes or positions that make no body, two particles with one centre

@@ -66,7 +66,7 @@ inline constexpr std::array<LaboratoryTest, 8> laboratory_tests{{
      .uniform_strain = false,
      .tensile = true},
     {.name = "usc",
-     .about = "Uniaxial strain compression: a cylinder whose mantle cannot move sideways.",
+     .about = "Uniaxial strain compression: a cylinder whose lateral surface cannot move sideways.",
      .rigid_sides = true,
      .uniform_strain = false},
     {.name = "hydrostatic",

@@ -81,7 +81,7 @@ void for_each_number_of_test(S& state, R& result, Visit&& visit) {
   visit("checks_max_energy", state.checks.max_energy);
   visit("checks_noise", state.checks.noise);
   visit("checks_platen_work", state.checks.platen_work);
-  visit("checks_skin", state.checks.skin);
+  visit("checks_lateral", state.checks.lateral);
   visit("checks_push", state.checks.push);
 
   visit("rows", result.record.rows);

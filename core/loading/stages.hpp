@@ -49,7 +49,7 @@ void frame_if_due(Run& run, double done, const CurveRow& row, bool last);
 /// @returns true when the run is to end here, interrupted
 bool checkpoint_if_due(Run& run);
 
-/// The pressure on the mantle and on the platens; a shear box has it on its lid alone.
+/// The pressure on the lateral surface and on the platens; a shear box has it on its lid alone.
 void set_pressure(const Run& run, double pressure);
 
 /// The instruments of a stage that is recorded: set to zero, and a first picture taken, unless a

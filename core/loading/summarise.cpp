@@ -139,9 +139,10 @@ void warn_if_not_held(const LaboratoryTest& test, const LoadTest& load, const Lo
       if (row.confining_stress_Pa > 0.25 * asked)
         most = std::max(most, std::abs(row.axial_stress_Pa / row.confining_stress_Pa - 1.0));
     if (most > allowed)
-      run.warnings.push_back(fmt::format(
-          "the axial stress differs by {:.0f} % from the pressure on the mantle; lower test.platen_speed",
-          100 * most));
+      run.warnings.push_back(
+          fmt::format("the axial stress differs by {:.0f} % from the pressure on the lateral surface; lower "
+                      "test.platen_speed",
+                      100 * most));
     return;
   }
   if (asked == 0 || test.rigid_sides) return;

@@ -54,8 +54,8 @@ struct PackRequest {
 };
 
 /// Packs spheres into a body whose centre is the origin and whose axis is z: dense, random, evenly
-/// filled up to flat ends and mantle. Centres lie inside; overlaps reach 20 % of ri + rj, and
-/// spheres stick out of walls by some 20 % of their radius at most. A bad request throws
+/// filled up to flat ends and lateral surface. Centres lie inside; overlaps reach 20 % of ri + rj,
+/// and spheres stick out of walls by some 20 % of their radius at most. A bad request throws
 /// BadPacking.
 ///
 /// In the plane: discs 1 m thick, y = 0. A box is the rectangle of its width along x and its height

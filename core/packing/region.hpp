@@ -54,8 +54,8 @@ inline double porosity(const Region& region, const Specimen& specimen) {
   return 1 - filled / volume(region);
 }
 
-/// Calls f(distance to the wall, normal into the body) for both ends and the mantle (box: its four
-/// sides; in the plane: two ends and two sides, or the one round wall).
+/// Calls f(distance to the wall, normal into the body) for both ends and the lateral surface (box:
+/// its four sides; in the plane: two ends and two sides, or the one round wall).
 template <class F>
 void for_each_wall(const Region& region, const Vec3& x, F&& f) {
   const Body& body = region.body;

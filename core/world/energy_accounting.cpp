@@ -147,16 +147,16 @@ void account_motion(World& w) {
   ledger.damped_motion.add(work.motion_this, work.motion_next);
   ledger.damped_spin.add(work.spin_this, work.spin_next);
   if (w.confinement.rigid || w.confinement.rows.empty()) return;
-  std::vector<SkinWork> skin_blocks;
-  SkinWork skin;
+  std::vector<SkinWork> lateral_blocks;
+  SkinWork lateral;
   if (w.confinement.pressure != 0.0)
-    skin = sum_listed(w.partition, w.confinement.rows, 1, skin_blocks, [&](std::size_t k) {
+    lateral = sum_listed(w.partition, w.confinement.rows, 1, lateral_blocks, [&](std::size_t k) {
       const Row row = w.confinement.rows[k];
       const Vec3& force = w.confinement.force[k];
       return SkinWork{0.5 * w.dt * dot(force, w.particles.velocity[row]),
                       0.5 * w.dt * dot(force, braked_motion(w, row).after)};
     });
-  ledger.pressure.add(skin.over_this, skin.over_next);
+  ledger.pressure.add(lateral.over_this, lateral.over_next);
 }
 
 EnergyBalance energy_balance(const World& w) {

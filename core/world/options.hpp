@@ -13,7 +13,7 @@ struct WorldOptions {
   Features features;  ///< that the scene asks for
   bool new_contacts = true;
   bool rough_platens = true;
-  bool rigid_skin = false;  ///< the mantle cannot move sideways
+  bool rigid_sides = false;  ///< the lateral surface cannot move sideways
   SkinWeights skin_weights = SkinWeights::radius;
   bool cracks = true;            ///< keep a record of broken bonds
   double contact_damping = 0.9;  ///< xi

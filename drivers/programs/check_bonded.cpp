@@ -67,7 +67,7 @@ void check_connection(const Connection& c, const Assembly& a, const std::string&
 void check_lateral_surface(const Assembly& a, bool pressed, const std::string& source,
                            std::vector<std::string>& warnings) {
   const double cover = lateral_cover(a);
-  if (pressed && !a.skin.empty() && is_one_sphere_wide(a))
+  if (pressed && !a.lateral.empty() && is_one_sphere_wide(a))
     fail<BadInput>(
         "{}: the specimen is one sphere wide: no sphere lies beside its axis, and lateral pressure has no "
         "direction; use a wider specimen",
@@ -76,12 +76,12 @@ void check_lateral_surface(const Assembly& a, bool pressed, const std::string& s
     fail<BadInput>(
         "{}: {} spheres that hang together reach the lateral surface and cover {:.3f} of it (packings: 0.65 "
         "to 0.9): the pressure on it would rest on them alone; check specimen.diameter and specimen.centre",
-        source, a.skin.size(), cover);
+        source, a.lateral.size(), cover);
   if (cover < 0.6)
     warnings.push_back(fmt::format(
         "{} spheres reach the lateral surface and cover {:.2f} of it (packings: 0.65 to 0.9): pressure and "
         "lateral strain rest on them alone; check specimen.diameter",
-        a.skin.size(), cover));
+        a.lateral.size(), cover));
 }
 
 void check_area_factor(const AreaFactor& f, const Assembly& a, const Connection& c,

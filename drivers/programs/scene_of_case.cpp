@@ -20,7 +20,7 @@ WorldOptions world_options(const Case& c, const LaboratoryTest& test, const Feat
   o.features = asked;
   o.new_contacts = c.features.new_contacts;
   o.rough_platens = test.always_rough || c.test.rough_platens;
-  o.rigid_skin = test.rigid_sides;
+  o.rigid_sides = test.rigid_sides;
   o.skin_weights = c.test.skin_weights;
   o.cracks = c.cracks;
   o.contact_damping = c.damping.contact;

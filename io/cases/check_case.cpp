@@ -178,7 +178,7 @@ struct Checks : CaseLaid {
     idle("output.stress", c.frames > 0, "with output.frames = 0 there is no picture to hold it");
     const auto presses = [](double p) { return p > 0; };
     idle("test.skin_weights", std::any_of(c.test.confinement.begin(), c.test.confinement.end(), presses),
-         "without a confinement nothing presses on the mantle");
+         "without a confinement nothing presses on the lateral surface");
   }
 
   /// Ranges that another key makes narrower.

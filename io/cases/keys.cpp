@@ -418,8 +418,9 @@ constexpr std::array keys{
         .default_text = "radius",
         .words = "radius voronoi",
         .refused_by = [](const T& t) { return !presses_sides(t); },
-        .reason = "nothing presses on the mantle",
-        .meaning = "what pressure on a sphere of the mantle acts on: pi r^2, scaled, or its Voronoi face",
+        .reason = "nothing presses on the lateral surface",
+        .meaning =
+            "what pressure on a sphere of the lateral surface acts on: pi r^2, scaled, or its Voronoi face",
         .store =
             [](C& c, const R& r) {
               c.test.skin_weights = r.word == "voronoi" ? SkinWeights::voronoi : SkinWeights::radius;

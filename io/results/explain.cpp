@@ -72,7 +72,7 @@ std::string explain(const World& w) {
   text += fmt::format("\nloops of a step, on {} thread{}\n", w.options.threads,
                       w.options.threads == 1 ? "" : "s");
   text += "  search       every 16 steps: has a particle used up the skin?\n";
-  text += fmt::format("  confinement  {} particles of the skin, where there is pressure\n",
+  text += fmt::format("  confinement  {} particles of the lateral surface, where there is pressure\n",
                       w.confinement.rows.size());
   text += fmt::format("  bonds        {} bonds in batches, {}; {} shared particles\n", w.bonds.size,
                       name_of(w.options.instruction_set), w.bond_plan.shared.size());

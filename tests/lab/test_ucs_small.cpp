@@ -57,10 +57,10 @@ const Run& unconfined() {
 }
 
 /// The virial theorem for a specimen at rest: sum of N d over the bonds is what the pressures on
-/// mantle and platens make of it, taken where they act (centres of spheres lie within the nominal
-/// body, at 500 spheres by a tenth of it). The mean bond stress is p/(alpha T), T of (B13). How
-/// much of the mantle's pressure on the rough layers, whose lateral motion is fixed, goes through
-/// bonds lies between none and all of it.
+/// lateral surface and platens make of it, taken where they act (centres of spheres lie within the
+/// nominal body, at 500 spheres by a tenth of it). The mean bond stress is p/(alpha T), T of (B13).
+/// How much of the pressure on the lateral surface on the rough layers, whose lateral motion is
+/// fixed, goes through bonds lies between none and all of it.
 struct Virial {
   double bonds = 0, least = 0, most = 0;  ///< N m
 };
@@ -127,7 +127,7 @@ TEST_CASE(
   CHECK(r.result.stage1_steps > 1000);
   CHECK(kinetic < 1e-3);
   for (const double stress : platens) CHECK(stress == doctest::Approx(9e6).epsilon(0.02));
-  // the layers also carry some of what presses on the free skin beside them
+  // the layers also carry some of what presses on the free surface beside them
   CHECK(balance.bonds > 0.95 * balance.least);
   CHECK(balance.bonds < balance.most);
   // what acts: the forces on the spheres, less what takes away their net force and moment

@@ -27,7 +27,7 @@ ref::Parameters elastic() {
 /// energy.
 World compressed(const ref::Parameters& p, std::size_t spheres, bool rough, bool sleeve) {
   WorldOptions o = scene::options(p);
-  o.rough_platens = rough, o.rigid_skin = sleeve, o.threads = 2;
+  o.rough_platens = rough, o.rigid_sides = sleeve, o.threads = 2;
   const Assembly a = assemble(scene::small_packing(spheres), scene::small_cylinder(), {}, o.features, 2);
   World w = make_world(a, scene::material_of(p), scene::factor(p), o);
   const int push = 400;
@@ -195,7 +195,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "sleeve: the skin does not move sideways - its pressure is the lateral stress of the network [(B73) "
+    "sleeve: the lateral surface does not move sideways - its pressure is the lateral stress of the network "
+    "[(B73) "
     "Love 1e-6]") {
   const World w = compressed(elastic(), 500, false, true);
   const auto f = scene::forces_now(w).force;

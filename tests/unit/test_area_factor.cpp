@@ -106,7 +106,7 @@ TEST_CASE(
   // rows 19: the lowest, 20: the highest
   REQUIRE(a.particles.position[19].z == doctest::Approx(-0.05));
   REQUIRE(a.particles.position[20].z == doctest::Approx(0.05));
-  for (Row k = 0; k < 19; ++k) a.skin.push_back(k);
+  for (Row k = 0; k < 19; ++k) a.lateral.push_back(k);
   const double want = 28e9 * std::numbers::pi * 0.0025 * 0.0025 / (std::numbers::pi * 0.025 * 0.025);
   CHECK(probe(a, stiffness(a), 0.4, true, 1).young_modulus == doctest::Approx(want).epsilon(1e-6));
   const ElasticResponse one = probe(packing(), stiffness(packing()), 0.4, true, 1),

@@ -26,7 +26,7 @@ TEST_CASE(
   rule.range = 0.3;  // far enough for pairs that others shield
   const Assembly wide = assemble(specimen, scene::small_cylinder(), rule, Features{}, 1);
   const std::vector<double> face =
-      bond_areas(AreaRule::voronoi, wide.particles, wide.bonds, wide.skin, wide.body, Space::three_d, 1);
+      bond_areas(AreaRule::voronoi, wide.particles, wide.bonds, wide.lateral, wide.body, Space::three_d, 1);
   rule.strength_area = AreaRule::voronoi;
   const Assembly both = assemble(specimen, scene::small_cylinder(), rule, Features{}, 1);
   std::size_t faceless = 0, wrong = 0, row = 0;
@@ -125,7 +125,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "grip: strips hold what reaches within 0.15 R of the load's line and 2.5 radii of the mantle - no more "
+    "grip: strips hold what reaches within 0.15 R of the load's line and 2.5 radii of the lateral surface - "
+    "no more "
     "[equal]") {
   Body disc{Shape::disc, 0.05, 0, 0.02};
   PackRequest r;
@@ -157,25 +158,27 @@ TEST_CASE(
   CHECK(a.layer == doctest::Approx(2.5 * mean).epsilon(1e-12));
 }
 
-TEST_CASE("grip: halves hold the ends and the mantle on either side of a band of five mean radii [equal]") {
+TEST_CASE(
+    "grip: halves hold the ends and the lateral surface on either side of a band of five mean radii "
+    "[equal]") {
   BondingRule rule;
   rule.grip = Support::halves;
   const Assembly a = assemble(scene::small_packing(800), scene::small_cylinder(), rule, Features{}, 1);
   double mean = 0;
   for (const double r : a.particles.radius) mean += r / 800;
-  std::size_t wrong = 0, band = 0, held = 0, by_mantle = 0;
+  std::size_t wrong = 0, band = 0, held = 0, by_lateral = 0;
   for (std::size_t k = 0; k < a.particles.size; ++k) {
     const Vec3& x = a.particles.position[k];
     const bool end = std::abs(x.z) > 0.05 - 1.5 * mean;
-    const bool mantle = std::hypot(x.x, x.y) + a.particles.radius[k] > 0.025 - 0.3 * mean;
-    const bool want = end || (mantle && std::abs(x.z) > 2.5 * mean);
+    const bool lateral = std::hypot(x.x, x.y) + a.particles.radius[k] > 0.025 - 0.3 * mean;
+    const bool want = end || (lateral && std::abs(x.z) > 2.5 * mean);
     wrong += want != (k >= a.particles.free);
     if (want) wrong += (x.z > 0) != (k >= a.first_top);
-    held += want, band += mantle && !want, by_mantle += want && !end;
+    held += want, band += lateral && !want, by_lateral += want && !end;
   }
   CHECK(wrong == 0);
   CHECK(band > 5);
-  CHECK(by_mantle > 50);
+  CHECK(by_lateral > 50);
   CHECK(held < 700);
   CHECK(a.load_section() == doctest::Approx(std::numbers::pi * 0.025 * 0.025).epsilon(1e-14));
 }

@@ -1,5 +1,5 @@
-// Areas of bonds and of the mantle: closed forms on lattices, and what must add up on random
-// packings.
+// Areas of bonds and of the lateral surface: closed forms on lattices, and what must add up on
+// random packings.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/bonding/bond_area.hpp"
-#include "core/bonding/mantle_area.hpp"
+#include "core/bonding/lateral_area.hpp"
 #include "core/bonding/section_area.hpp"
 #include "core/geometry/body_walls.hpp"
 #include "core/geometry/voronoi_cells.hpp"
@@ -29,7 +29,7 @@ constexpr AreaRule all_rules[] = {AreaRule::minimum, AreaRule::harmonic, AreaRul
                                   AreaRule::voronoi};
 
 std::vector<double> areas(AreaRule rule, const Assembly& a, Space space = Space::three_d, int threads = 1) {
-  return bond_areas(rule, a.particles, a.bonds, a.skin, a.body, space, threads);
+  return bond_areas(rule, a.particles, a.bonds, a.lateral, a.body, space, threads);
 }
 
 VoronoiCells cells(const Assembly& a, Space space = Space::three_d, int threads = 1) {
@@ -50,12 +50,13 @@ BondTable bonds_at(const std::vector<VoronoiFace>& faces) {
   return b;
 }
 
-/// Balls in a body, bonded within beta; the skin as a specimen would have it.
+/// Balls in a body, bonded within beta; the lateral surface as a specimen would have it.
 Assembly bonded(const std::vector<scene::Ball>& balls, const Body& body, double beta = 0.05) {
   Assembly a = scene::free_body(balls, beta, Features{});
   a.body = body;
   for (std::size_t k = 0; k < balls.size(); ++k)
-    if (at_mantle(body, Space::three_d, balls[k].x, balls[k].radius, a.mean_radius)) a.skin.push_back(Row(k));
+    if (at_lateral_surface(body, Space::three_d, balls[k].x, balls[k].radius, a.mean_radius))
+      a.lateral.push_back(Row(k));
   return a;
 }
 
@@ -164,7 +165,7 @@ Shares shares(const Assembly& a, double section, Space space = Space::three_d) {
 TEST_CASE("bond area: two spheres by the four rules [(P21) (S4.32) rel 1e-14]") {
   Assembly a =
       bonded({{1, 0.002, {0, 0, -0.002}}, {2, 0.003, {0, 0, 0.003}}}, {Shape::box, 0.01, 0.02, 0.012});
-  a.skin.clear();
+  a.lateral.clear();
   REQUIRE(a.bonds.size == 1);
   CHECK(areas(AreaRule::minimum, a)[0] == Approx(pi * 4e-6).epsilon(1e-14));
   CHECK(areas(AreaRule::harmonic, a)[0] == Approx(pi * 2.4e-3 * 2.4e-3).epsilon(1e-14));
@@ -186,7 +187,7 @@ TEST_CASE("bond area: two spheres by the four rules [(P21) (S4.32) rel 1e-14]") 
 }
 
 TEST_CASE(
-    "bond area: a skin sphere gets what 11 neighbours would give and the inner end wins [(B9) rel "
+    "bond area: a lateral surface sphere gets what 11 neighbours would give and the inner end wins [(B9) rel "
     "1e-14]") {
   Assembly a =
       bonded({{1, 0.002, {0, 0, -0.002}}, {2, 0.003, {0, 0, 0.003}}}, {Shape::box, 0.01, 0.02, 0.012});
@@ -194,14 +195,14 @@ TEST_CASE(
   const double f8 = 12 * std::sqrt(3.0) / (4 * pi), f4 = 24 * std::sqrt(3.0) / (4 * pi);
   CHECK(f12 == Approx(1.325).epsilon(4e-4));  // thesis, table C.1
   const double f11 = f8 + 0.75 * (f12 - f8), one = 4 * pi * 4e-6, two = 4 * pi * 9e-6;
-  a.skin = {0, 1};
+  a.lateral = {0, 1};
   CHECK(areas(AreaRule::polyhedron, a)[0] == Approx(f11 / 11 * (one + two) / 2).epsilon(1e-14));
-  a.skin = {0};
+  a.lateral = {0};
   CHECK(areas(AreaRule::polyhedron, a)[0] == Approx(f4 * two).epsilon(1e-14));
-  a.skin = {1};
+  a.lateral = {1};
   CHECK(areas(AreaRule::polyhedron, a)[0] == Approx(f4 * one).epsilon(1e-14));
   // plane: 6 of them, a hexagon
-  a.skin = {0, 1};
+  a.lateral = {0, 1};
   const double side = 2 * std::tan(pi / 6);  // of the hexagon around a circle of radius 1
   CHECK(areas(AreaRule::polyhedron, a, Space::two_d)[0] == Approx(side * 2.5e-3).epsilon(1e-14));
 }
@@ -219,7 +220,7 @@ TEST_CASE(
     star.resize(std::size_t(n), Features{});
     for (int k = 0; k < n; ++k) star.row_lo[k] = 0, star.row_hi[k] = Row(k + 1);
     a.bonds = star;
-    for (int k = 1; k <= n; ++k) a.skin.push_back(Row(k));  // so that the middle's value stands alone
+    for (int k = 1; k <= n; ++k) a.lateral.push_back(Row(k));  // so that the middle's value stands alone
     const double f = sum(areas(AreaRule::polyhedron, a)) / (4 * pi * 1e-6);
     INFO(n);
     const bool misprint = n == 7 || n == 11 || n == 16;
@@ -241,13 +242,13 @@ TEST_CASE("bond area: simple cubic lattice has cubes by voronoi and by polyhedro
     CHECK(areas(AreaRule::polyhedron, a)[k] == Approx(4 * r * r).epsilon(1e-12));
   // cubes that meet in an edge or a corner have no face
   CHECK(cells(a).faces.size() == a.bonds.size);
-  // a mantle of four sides with 25 squares each; the ends are not of it
-  const auto mantle = mantle_areas(a.particles, a.skin, a.body);
-  CHECK(sum(mantle) == Approx(4 * 25 * 4 * r * r).epsilon(1e-12));
-  for (std::size_t k = 0; k < a.skin.size(); ++k) {
-    const Vec3& x = a.particles.position[a.skin[k]];
+  // a lateral surface of four sides with 25 squares each; the ends are not of it
+  const auto lateral = lateral_areas(a.particles, a.lateral, a.body);
+  CHECK(sum(lateral) == Approx(4 * 25 * 4 * r * r).epsilon(1e-12));
+  for (std::size_t k = 0; k < a.lateral.size(); ++k) {
+    const Vec3& x = a.particles.position[a.lateral[k]];
     const int sides = int(std::abs(x.x) > 3 * r) + int(std::abs(x.y) > 3 * r);
-    CHECK(mantle[k] == Approx(sides * 4 * r * r).epsilon(1e-9));
+    CHECK(lateral[k] == Approx(sides * 4 * r * r).epsilon(1e-9));
   }
 }
 
@@ -276,7 +277,7 @@ TEST_CASE("bond area: hexagonal discs have hexagons by voronoi and by polyhedron
     CHECK(polyhedron[k] == Approx(2 * r / std::numbers::sqrt3).epsilon(1e-12));
   }
   CHECK(sum(cells(a, Space::two_d).volume) == Approx(a.body.diameter * a.body.height).epsilon(1e-10));
-  CHECK(sum(mantle_areas(a.particles, a.skin, a.body, Space::two_d)) ==
+  CHECK(sum(lateral_areas(a.particles, a.lateral, a.body, Space::two_d)) ==
         Approx(2 * a.body.height).epsilon(1e-12));
 }
 
@@ -288,7 +289,7 @@ TEST_CASE(
     CHECK(sum(c.volume) == Approx(V).epsilon(1e-9));
     CHECK(c.grown == 0.0);
     const auto& x = a->particles.position;
-    double pairs = 0, walls = 0, mantle = 0, ends = 0;
+    double pairs = 0, walls = 0, lateral = 0, ends = 0;
     std::vector<double> cones(a->particles.size);  // per particle, from its own side of each face
     for (const VoronoiFace& f : c.faces) {
       const double d = norm(x[f.b] - x[f.a]), ra = a->particles.radius[f.a], rb = a->particles.radius[f.b];
@@ -299,12 +300,12 @@ TEST_CASE(
     for (const WallFace& f : c.wall_faces) {
       walls += f.distance * f.area / 3;
       cones[f.row] += f.distance * f.area / 3;
-      (f.mantle ? mantle : ends) += f.area;
+      (f.lateral ? lateral : ends) += f.area;
     }
     CHECK(pairs + walls == Approx(V).epsilon(1e-9));
     for (std::size_t k = 0; k < cones.size(); ++k) CHECK(cones[k] == Approx(c.volume[k]).epsilon(1e-7));
     CHECK(ends == Approx(2 * a->section()).epsilon(1e-9));
-    CHECK(mantle == Approx(a->mantle()).epsilon(2e-5));  // a prism of 360 sides
+    CHECK(lateral == Approx(a->lateral_surface()).epsilon(2e-5));  // a prism of 360 sides
     // T = 1 but for the walls' share; bonds do not reach all neighbours
     const auto area = areas(AreaRule::voronoi, *a);
     double bonds = 0;
@@ -343,7 +344,7 @@ TEST_CASE("bond area: no rule asks which end is which nor for the number of thre
     for (const int threads : {2, 3, 7}) CHECK(areas(rule, a, Space::three_d, threads) == one);
     BondTable turned = a.bonds;
     std::swap(turned.row_lo, turned.row_hi);
-    CHECK(bond_areas(rule, a.particles, turned, a.skin, a.body, Space::three_d, 2) == one);
+    CHECK(bond_areas(rule, a.particles, turned, a.lateral, a.body, Space::three_d, 2) == one);
     // particles in the reverse order
     Assembly back = a;
     std::reverse(back.particles.radius.begin(), back.particles.radius.end());
@@ -351,28 +352,30 @@ TEST_CASE("bond area: no rule asks which end is which nor for the number of thre
     const Row last = Row(a.particles.size - 1);
     for (Row& row : back.bonds.row_lo) row = last - row;
     for (Row& row : back.bonds.row_hi) row = last - row;
-    for (Row& row : back.skin) row = last - row;
+    for (Row& row : back.lateral) row = last - row;
     const auto other = areas(rule, back);
     double worst = 0;
     for (std::size_t k = 0; k < one.size(); ++k) worst = std::max(worst, std::abs(other[k] - one[k]));
     CHECK(worst < 1e-10 * a.mean_radius * a.mean_radius);
   }
-  CHECK(mantle_areas(a.particles, a.skin, a.body) ==
-        mantle_areas(a.particles, a.skin, a.body, Space::three_d, 3));
+  CHECK(lateral_areas(a.particles, a.lateral, a.body) ==
+        lateral_areas(a.particles, a.lateral, a.body, Space::three_d, 3));
 }
 
 TEST_CASE("voronoi cells: a body that lies along y is the standing one turned [rel 1e-12]") {
   const Assembly& a = packed_cylinder();
   ParticleTable lying = a.particles;
-  for (Vec3& x : lying.reference_position) x = {x.x, -x.z, x.y};  // mantle normals (c, s, 0) become (c, 0, s)
-  const auto turned = bond_areas(AreaRule::voronoi, lying, a.bonds, a.skin, a.body, Space::three_d, 1, 'y');
+  for (Vec3& x : lying.reference_position)
+    x = {x.x, -x.z, x.y};  // lateral surface normals (c, s, 0) become (c, 0, s)
+  const auto turned =
+      bond_areas(AreaRule::voronoi, lying, a.bonds, a.lateral, a.body, Space::three_d, 1, 'y');
   const auto standing = areas(AreaRule::voronoi, a);
   double worst = 0;
   for (std::size_t k = 0; k < standing.size(); ++k)
     worst = std::max(worst, std::abs(turned[k] - standing[k]));
   CHECK(worst < 1e-10 * a.mean_radius * a.mean_radius);
-  const auto weights = mantle_areas(lying, a.skin, a.body, Space::three_d, 1, 'y'),
-             upright = mantle_areas(a.particles, a.skin, a.body);
+  const auto weights = lateral_areas(lying, a.lateral, a.body, Space::three_d, 1, 'y'),
+             upright = lateral_areas(a.particles, a.lateral, a.body);
   for (std::size_t k = 0; k < weights.size(); ++k) CHECK(weights[k] == Approx(upright[k]).epsilon(1e-8));
 }
 
@@ -385,12 +388,12 @@ TEST_CASE("voronoi cells: a lying disc in the plane has the section of the circl
     if (norm(a.particles.position[k]) < 0.015) x.push_back(a.particles.position[k]), r.push_back(0.0015);
   const VoronoiCells c = voronoi_cells(x, r, a.body, Space::two_d, 1, 'y');
   CHECK(sum(c.volume) == Approx(pi * 0.015 * 0.015).epsilon(1e-10));
-  double mantle = 0;
+  double lateral = 0;
   for (const WallFace& f : c.wall_faces) {
-    CHECK(f.mantle);
-    mantle += f.area;
+    CHECK(f.lateral);
+    lateral += f.area;
   }
-  CHECK(mantle == Approx(pi * 0.030).epsilon(2e-5));
+  CHECK(lateral == Approx(pi * 0.030).epsilon(2e-5));
 }
 
 TEST_CASE("voronoi cells: a nested sphere may have none and a centre outside moves the wall") {
@@ -424,7 +427,8 @@ TEST_CASE("voronoi cells: a small sphere in the gap of two others takes their fa
     CHECK(area[k] == Approx(a.bonds.gid_lo[k] == 1 && a.bonds.gid_hi[k] == 2 ? 0.0 : 4e-4).epsilon(1e-10));
 }
 
-TEST_CASE("voronoi cells: a centre on a round mantle or just outside has a cell [volume rel 1e-10]") {
+TEST_CASE(
+    "voronoi cells: a centre on a round lateral surface or just outside has a cell [volume rel 1e-10]") {
   for (const double beyond : {0.0, 0.0005}) {
     const double angle = 2 * pi * 0.5 / 360, rho = 0.02 + beyond;  // the middle of a side of the prism
     const Assembly a =
@@ -434,12 +438,13 @@ TEST_CASE("voronoi cells: a centre on a round mantle or just outside has a cell 
     CHECK(c.grown == Approx(beyond).epsilon(1e-9));
     CHECK(c.volume[0] > 0.0);
     CHECK(sum(c.volume) == Approx(pi * rho * rho * 0.03).epsilon(1e-10));
-    CHECK(sum(mantle_areas(a.particles, a.skin, a.body)) == Approx(pi * 0.04 * 0.03).epsilon(1e-12));
+    CHECK(sum(lateral_areas(a.particles, a.lateral, a.body)) == Approx(pi * 0.04 * 0.03).epsilon(1e-12));
   }
 }
 
 TEST_CASE(
-    "mantle area: equal rings share the mantle evenly [rel 1e-9] and any skin shares all of it [rel 1e-12]") {
+    "mantle area: equal rings share the lateral surface evenly [rel 1e-9] and any lateral surface shares all "
+    "of it [rel 1e-12]") {
   std::vector<scene::Ball> balls;
   const int around = 30, rings = 5;
   for (int j = 0; j < rings; ++j)
@@ -450,34 +455,35 @@ TEST_CASE(
                        {0.0225 * std::cos(angle), 0.0225 * std::sin(angle), 0.005 * (j - 2)}});
     }
   const Assembly a = bonded(balls, {Shape::cylinder, 0.05, 0, 0.025});
-  REQUIRE(a.skin.size() == balls.size());
-  for (const double w : mantle_areas(a.particles, a.skin, a.body))
-    CHECK(w == Approx(a.mantle() / (around * rings)).epsilon(1e-9));
+  REQUIRE(a.lateral.size() == balls.size());
+  for (const double w : lateral_areas(a.particles, a.lateral, a.body))
+    CHECK(w == Approx(a.lateral_surface() / (around * rings)).epsilon(1e-9));
 
   const Assembly& p = packed_cylinder();
-  const auto weight = mantle_areas(p.particles, p.skin, p.body);
-  CHECK(sum(weight) == Approx(p.mantle()).epsilon(1e-12));
+  const auto weight = lateral_areas(p.particles, p.lateral, p.body);
+  CHECK(sum(weight) == Approx(p.lateral_surface()).epsilon(1e-12));
   CHECK(*std::min_element(weight.begin(), weight.end()) >= 0.0);
-  // where only the skin touches the mantle it is the wall face of the cell among all particles
+  // where only particles of the lateral surface touch it, the weight is the wall face of the cell
+  // among all particles
   const VoronoiCells c = cells(p);
   std::vector<double> face(p.particles.size);
   for (const WallFace& f : c.wall_faces)
-    if (f.mantle) face[f.row] += f.area;
-  const double to_circle = p.mantle() / sum(face);  // the cells' mantle is a prism
+    if (f.lateral) face[f.row] += f.area;
+  const double to_circle = p.lateral_surface() / sum(face);  // the cells' lateral surface is a prism
   CHECK(to_circle == Approx(1).epsilon(2e-5));
   double skin = 0;
   std::size_t same = 0;
-  for (std::size_t k = 0; k < p.skin.size(); ++k) {
-    const double among_all = to_circle * face[p.skin[k]];
+  for (std::size_t k = 0; k < p.lateral.size(); ++k) {
+    const double among_all = to_circle * face[p.lateral[k]];
     skin += among_all;
     CHECK(weight[k] >= among_all * (1 - 1e-9));  // fewer share
     same += weight[k] < among_all * (1 + 1e-9);
   }
-  MESSAGE("skin of " << p.skin.size() << ": share of the mantle among all particles " << skin / p.mantle()
-                     << ", same for " << same << ", without a face "
+  MESSAGE("skin of " << p.lateral.size() << ": share of the lateral surface among all particles "
+                     << skin / p.lateral_surface() << ", same for " << same << ", without a face "
                      << std::count(weight.begin(), weight.end(), 0.0));
-  CHECK(skin > 0.9 * p.mantle());
-  CHECK(same > p.skin.size() / 2);
+  CHECK(skin > 0.9 * p.lateral_surface());
+  CHECK(same > p.lateral.size() / 2);
 }
 
 TEST_CASE("section area: square lattice by hand [rel 1e-12]") {
@@ -547,7 +553,7 @@ TEST_CASE("bond area: bad input is refused with its place") {
     a.bonds.row_hi[0] = 2;
     CHECK_THROWS_WITH_AS(areas(rule, a), doctest::Contains("bond 0"), BadInput);
     a = good;
-    a.skin = {7};
+    a.lateral = {7};
     CHECK_THROWS_WITH_AS(areas(rule, a), doctest::Contains("row 7"), BadInput);
   }
   Assembly a = good;
@@ -557,9 +563,9 @@ TEST_CASE("bond area: bad input is refused with its place") {
   a.body.depth = 0;
   CHECK_THROWS_AS(areas(AreaRule::voronoi, a), BadInput);
   CHECK_NOTHROW(areas(AreaRule::voronoi, a, Space::two_d));
-  CHECK_THROWS_WITH_AS(
-      bond_areas(AreaRule::voronoi, good.particles, good.bonds, good.skin, good.body, Space::three_d, 1, 'y'),
-      doctest::Contains("axis"), BadInput);
+  CHECK_THROWS_WITH_AS(bond_areas(AreaRule::voronoi, good.particles, good.bonds, good.lateral, good.body,
+                                  Space::three_d, 1, 'y'),
+                       doctest::Contains("axis"), BadInput);
   a = good;
   a.particles.reference_position[0].y = 1e-3;
   CHECK_THROWS_WITH_AS(areas(AreaRule::voronoi, a, Space::two_d), doctest::Contains("out of the plane"),
@@ -568,7 +574,8 @@ TEST_CASE("bond area: bad input is refused with its place") {
   CHECK_THROWS_WITH_AS(areas(AreaRule::voronoi, a), doctest::Contains("two particles"), BadInput);
   a.particles.reference_position[0].x = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH_AS(areas(AreaRule::voronoi, a), doctest::Contains("nan"), BadInput);
-  CHECK_THROWS_WITH_AS(mantle_areas(good.particles, {}, good.body), doctest::Contains("mantle"), BadInput);
+  CHECK_THROWS_WITH_AS(lateral_areas(good.particles, {}, good.body), doctest::Contains("lateral surface"),
+                       BadInput);
   CHECK_THROWS_AS(area_through(good.particles, good.bonds, {}, 0.0), BadInput);
   CHECK_THROWS_AS(area_through_levels(good.particles, good.bonds, areas(AreaRule::minimum, good), 0, 1, 0),
                   BadInput);

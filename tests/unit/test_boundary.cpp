@@ -1,4 +1,4 @@
-// What acts on a specimen from outside: pressure on the mantle, platens, their servo.
+// What acts on a specimen from outside: pressure on the lateral surface, platens, their servo.
 #include <doctest/doctest.h>
 
 #include "core/stepping/step.hpp"
@@ -18,7 +18,8 @@ Assembly packed(std::size_t spheres) {
 }  // namespace
 
 TEST_CASE(
-    "boundary: the weights of the skin add up to the nominal mantle, in the ratio of r^2 [(B71), rel "
+    "boundary: the weights of the lateral surface add up to the nominal lateral surface, in the ratio of r^2 "
+    "[(B71), rel "
     "1e-13]") {
   const Assembly a = packed(400);
   const Confinement c = make_confinement(a, SkinWeights::radius, false);
@@ -26,7 +27,7 @@ TEST_CASE(
   for (const double w : c.weight) sum += w;
   CHECK(sum == doctest::Approx(std::numbers::pi * 0.05 * 0.10).epsilon(1e-13));
   REQUIRE(c.rows.size() > 100);
-  REQUIRE(c.rows == a.skin);
+  REQUIRE(c.rows == a.lateral);
   const double per_square = c.weight[0] / std::pow(a.particles.radius[c.rows[0]], 2);
   for (std::size_t k = 0; k < c.rows.size(); ++k)
     CHECK(c.weight[k] ==
@@ -34,7 +35,7 @@ TEST_CASE(
   for (std::size_t row = 0; row < a.particles.size; ++row) {
     const Vec3& x = a.particles.position[row];
     const bool near = std::hypot(x.x, x.y) + a.particles.radius[row] > 0.025 - 0.3 * a.mean_radius;
-    CHECK(near == std::binary_search(a.skin.begin(), a.skin.end(), static_cast<Row>(row)));
+    CHECK(near == std::binary_search(a.lateral.begin(), a.lateral.end(), static_cast<Row>(row)));
   }
 }
 
@@ -62,9 +63,9 @@ TEST_CASE(
   CHECK(std::abs(moment.x) < 1e-13 * size * 0.05);
   CHECK(std::abs(moment.y) < 1e-13 * size * 0.05);
   CHECK(std::abs(moment.z) < 1e-13 * size * 0.025);
-  CHECK(inward == doctest::Approx(9e6 * a.mantle()).epsilon(0.01));  // the correction is small
+  CHECK(inward == doctest::Approx(9e6 * a.lateral_surface()).epsilon(0.01));  // the correction is small
   for (std::size_t row = 0; row < a.particles.size; ++row)
-    if (!std::binary_search(a.skin.begin(), a.skin.end(), static_cast<Row>(row)))
+    if (!std::binary_search(a.lateral.begin(), a.lateral.end(), static_cast<Row>(row)))
       CHECK(a.particles.force[row] == Vec3{});
 }
 
@@ -100,7 +101,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "boundary: a packing under servo and mantle pressure comes to rest at that pressure [0.5 %, the stop "
+    "boundary: a packing under servo and lateral surface pressure comes to rest at that pressure [0.5 %, the "
+    "stop "
     "test's own band]") {
   const Assembly a = packed(200);
   reference::Parameters m;
@@ -160,8 +162,8 @@ TEST_CASE(
   for (const bool lopsided : {false, true}) {
     Assembly a = packed(400);
     if (lopsided) {  // three neighbours are found: what does not balance is taken out again
-      std::erase_if(a.skin, [&](Row row) { return a.particles.position[row].x < 0.020; });
-      a.skin.resize(3);
+      std::erase_if(a.lateral, [&](Row row) { return a.particles.position[row].x < 0.020; });
+      a.lateral.resize(3);
     }
     Confinement c = make_confinement(a, SkinWeights::radius, false);
     c.pressure = 9e6;
@@ -193,7 +195,7 @@ TEST_CASE("boundary: a sphere on the axis gets no lateral force, and no other a 
 TEST_CASE("boundary: the cover of the lateral surface, in packings 0.65 to 0.9") {
   const Assembly a = packed(400);
   double sum = 0;
-  for (const Row row : a.skin) sum += std::numbers::pi * std::pow(a.particles.radius[row], 2);
+  for (const Row row : a.lateral) sum += std::numbers::pi * std::pow(a.particles.radius[row], 2);
   CHECK(lateral_cover(a) == doctest::Approx(sum / (std::numbers::pi * 0.05 * 0.10)).epsilon(1e-12));
   CHECK(lateral_cover(a) > 0.65);
   CHECK(lateral_cover(a) < 0.9);

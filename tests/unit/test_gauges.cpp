@@ -34,9 +34,9 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
   });
   CHECK(std::abs(m_z + 1e-3) < 1e-14);
   CHECK(m_r == 0);
-  // and the radial one no further than the middle 40 % of the skin
+  // and the radial one no further than the middle 40 % of the lateral surface
   const auto [far, r_r] = strains([](const Vec3& p) {
-    return std::abs(p.z) < 0.02 && at_mantle(scene::small_cylinder(), Space::three_d, p, 0, 0.02)
+    return std::abs(p.z) < 0.02 && at_lateral_surface(scene::small_cylinder(), Space::three_d, p, 0, 0.02)
                ? Vec3{1e-3 * p.x, 1e-3 * p.y, 0}
                : Vec3{};
   });
@@ -44,7 +44,7 @@ TEST_CASE("gauges: an affine displacement gives its strains, whatever it is shif
   CHECK(r_r < 0);
   for (const Row row : radial.rows) {
     CHECK(std::abs(x[row].z) < 0.02);
-    CHECK(std::binary_search(a.skin.begin(), a.skin.end(), row));
+    CHECK(std::binary_search(a.lateral.begin(), a.lateral.end(), row));
   }
 }
 
@@ -59,10 +59,10 @@ TEST_CASE(
     const auto& x = a.particles.reference_position;
     const Gauge g = lateral_gauge(a);
     std::size_t within =
-        0;  // all particles of a disc, the skin of others, in the middle 40 % of what is pressed
+        0;  // all particles of a disc, the lateral surface of others, in the middle 40 % of what is pressed
     for (std::size_t k = 0; k < x.size(); ++k)
       within += std::abs(x[k].z) < 0.2 * (disc ? 0.05 : 0.10) &&
-                (disc || std::binary_search(a.skin.begin(), a.skin.end(), static_cast<Row>(k)));
+                (disc || std::binary_search(a.lateral.begin(), a.lateral.end(), static_cast<Row>(k)));
     CHECK(g.rows.size() == within);
     std::vector<Vec3> moved;
     for (const Vec3& p : x) moved.push_back(p + Vec3{5e-4 * p.x + 0.01, -7e-4 * p.y + 1, 3e-4 * p.z});

@@ -84,7 +84,7 @@ double solid_area(const Body& body, const Specimen& s, double from, double to) {
 }
 
 /// Of a cylinder of radius rho about the axis, middle half of the height, the part inside spheres.
-double solid_mantle(const Body& body, const Specimen& s, double rho) {
+double solid_lateral(const Body& body, const Specimen& s, double rho) {
   Random random(7);
   int inside = 0;
   const int points = 4000;
@@ -123,7 +123,7 @@ void check_like_real(const Body& body, const Specimen& s, double porosity_asked)
   CHECK(p.overlap_most < 0.25);  // in 20 packings of 4000: one pair beyond 0.20, at 0.224
   CHECK(p.nested == 0);
   CHECK(least_wall_distance(body, s) >
-        0.7);  // sticks out by 0.3 r at most; real: 0.28 at the ends, 0.43 at the mantle
+        0.7);  // sticks out by 0.3 r at most; real: 0.28 at the ends, 0.43 at the lateral surface
 }
 
 std::string refusal(const Body& body, const PackRequest& r) {
@@ -174,13 +174,13 @@ TEST_CASE("packing: 4000 spheres in a cylinder: like the real mesh, ends flat an
     CHECK(covered > 0.40);  // real: 0.63 and 0.40
   }
   const double edge = cylinder.diameter / 2;
-  CHECK(solid_mantle(cylinder, s, edge - 0.1 * rm) > 0.10);
-  CHECK(solid_mantle(cylinder, s, edge - 0.6 * rm) > 0.60);
-  CHECK(solid_mantle(cylinder, s, edge - 1.0 * rm) > 0.75);
+  CHECK(solid_lateral(cylinder, s, edge - 0.1 * rm) > 0.10);
+  CHECK(solid_lateral(cylinder, s, edge - 0.6 * rm) > 0.60);
+  CHECK(solid_lateral(cylinder, s, edge - 1.0 * rm) > 0.75);
   double skin = 0, bulk = 0;
   for (const double t : {0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0})
-    skin += solid_mantle(cylinder, s, edge - t * rm) / 8;
-  for (const double t : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7}) bulk += solid_mantle(cylinder, s, t * edge) / 6;
+    skin += solid_lateral(cylinder, s, edge - t * rm) / 8;
+  for (const double t : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7}) bulk += solid_lateral(cylinder, s, t * edge) / 6;
   CAPTURE(skin);
   CHECK(skin > 0.93 * bulk);
 

@@ -30,13 +30,13 @@ TEST_CASE("pieces: numbered by size, the largest first") {
 
 TEST_CASE("pieces: nothing is left out of a good packing") {
   Assembly a = grouped([](const Vec3&) { return 1; });
-  const std::vector<Row> skin = a.skin;
+  const std::vector<Row> skin = a.lateral;
   const Connection c = leave_out_loose(a, true, 1);
   CHECK(c.pieces == std::vector<std::size_t>{400});
   CHECK(c.loose == 0);
   CHECK(c.unbonded == 0);
   CHECK(c.by_bonds);
-  CHECK(a.skin == skin);
+  CHECK(a.lateral == skin);
 }
 
 TEST_CASE("pieces: spheres without a bond are in no pressed surface and in no gauge") {
@@ -46,7 +46,7 @@ TEST_CASE("pieces: spheres without a bond are in no pressed surface and in no ga
   REQUIRE(c.unbonded > 5);
   CHECK(c.loose == c.unbonded);
   CHECK(c.joined);
-  for (const Row row : a.skin) CHECK(!loose(a.particles.position[row]));
+  for (const Row row : a.lateral) CHECK(!loose(a.particles.position[row]));
   for (const Gauge& g : {axial_gauge(a), lateral_gauge(a)}) {
     REQUIRE(g.rows.size() > 20);
     for (const Row row : g.rows) CHECK(!loose(a.particles.position[row]));

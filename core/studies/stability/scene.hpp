@@ -29,7 +29,7 @@ struct StabilitySetup {
   std::function<void(World&)> change;  ///< of columns of the world before its step is found; may be empty
   Vec3 offset;                         ///< m, that the whole scene is moved by
   LoadTest load;
-  double blast = 0;              ///< m/s at the mantle, outwards, all bonds broken: instead of a test
+  double blast = 0;  ///< m/s at the lateral surface, outwards, all bonds broken: instead of a test
   std::uint64_t rest_steps = 0;  ///< pressed a little, then left alone for so long: instead of a test
 };
 
