@@ -73,6 +73,7 @@ std::vector<std::vector<Outcome>> follow(const Law& law, const std::vector<BondC
       pair.distance = spread<R>([&](std::size_t k) { return bonds[item(k)].rest_length + now(k).u; });
       pair.normal = pair.normal_before = {R(1.0), R(0.0), R(0.0)};
       pair.rate = R(0.0);
+      pair.stretching = spread<R>([&](std::size_t k) { return now(k).u - before(k).u; });
       pair.turn_cosine = R(1.0);
       pair.twist = R(0.0);
       pair.slip = {R(0.0), spread<R>([&](std::size_t k) { return now(k).y - before(k).y; }),

@@ -34,6 +34,7 @@ inline Material material_of(const reference::Parameters& p) {
   m.fracture_energy_normal = p.G_I;
   m.fracture_energy_shear = p.G_II;
   m.criterion = static_cast<Criterion>(p.criterion);
+  m.shear_under_yield = p.shear_follows ? ShearUnderYield::tangent : ShearUnderYield::elastic;
   return m;
 }
 

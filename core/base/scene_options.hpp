@@ -35,6 +35,10 @@ inline std::string_view name_of(DampingScheme scheme) {
   return scheme == DampingScheme::capped ? "capped" : scheme == DampingScheme::summed ? "summed" : "explicit";
 }
 
+/// How bonds answer stage 1 of a test under confinement: elastically, so that loading begins on an
+/// elastic branch, or by their law, which may yield. docs/model.md, "Confined tests".
+enum class HydrostaticResponse { elastic, law };
+
 /// What fluid pressure on a particle of the lateral surface acts on: pi r^2, or its share of the
 /// whole (Voronoi).
 enum class SkinWeights { radius, voronoi };

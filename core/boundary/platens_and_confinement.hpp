@@ -42,8 +42,9 @@ Platens make_platens(const Assembly& assembly, const ParticleTable& particles, b
                      double young_modulus);
 
 /// Reactions of this step, and for a servo the velocity that follows from them.
+/// @param behind  N, along z: of planes behind the layers on the specimen
 void drive_platens(Platens& platens, const ParticleTable& particles, const Partition& partition,
-                   std::size_t first_top, double dt);
+                   std::size_t first_top, const std::array<double, 2>& behind, double dt);
 
 /// What surrounds the lateral surface: a fluid under pressure, forces p w on each of its particles
 /// with weights w that add up to the nominal surface; or a rigid wall that lets it slide along the
@@ -57,6 +58,7 @@ struct Confinement {
   std::vector<Row> rows;
   std::vector<double> weight;  ///< m^2
   std::vector<Vec3> force;     ///< N, of this step
+  std::vector<double> alone;   ///< s, since nothing but the pressure acts; < 0: pressed no more (B112)
 };
 
 /// @param rigid  a wall instead of a fluid

@@ -1,5 +1,6 @@
 #include "core/elastic/gauges.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace breccia {
@@ -28,13 +29,14 @@ Gauge axial_gauge(const Assembly& a) {
   return g;
 }
 
-Gauge lateral_gauge(const Assembly& a) {
+Gauge lateral_gauge(const Assembly& a, std::span<const Gid> left_out) {
   Gauge g;
   const auto& x = a.particles.reference_position;
   const bool x_only = a.body.on_edge || a.space == Space::two_d;
   Vec3 mean;
   const auto add = [&](Row row) {
     if (std::abs(x[row].z) >= 0.2 * a.length() || is_loose(a, row)) return;
+    if (std::find(left_out.begin(), left_out.end(), a.particles.gid[row]) != left_out.end()) return;
     g.rows.push_back(row);
     mean += x[row];
   };

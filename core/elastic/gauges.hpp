@@ -20,7 +20,8 @@ Gauge axial_gauge(const Assembly& assembly);
 
 /// Least-squares widening across the axis: of the lateral surface at mid-height (middle 40 %); of a
 /// disc on edge that of all particles there, along x. No rows where nothing lies there. (B78)
-Gauge lateral_gauge(const Assembly& assembly);
+/// @param left_out  ids that have no say
+Gauge lateral_gauge(const Assembly& assembly, std::span<const Gid> left_out = {});
 
 /// Strain of the gauge between reference and present positions.
 double read_gauge(const Gauge& gauge, Strided<const Vec3> position, std::span<const Vec3> reference,

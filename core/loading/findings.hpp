@@ -21,9 +21,14 @@ struct CycleSummary {
 struct RunSummary {
   double confinement_Pa = 0;
   std::optional<double> confinement_measured_Pa;  ///< of it what the specimen held up, at the end of stage 1
-  std::optional<double> peak_stress_Pa;           ///< total axial
-  std::optional<double> peak_deviator_Pa;         ///< total axial less confinement
-  bool peak_reached = false;                      ///< the stress came down again after its largest value
+  /// of a test with a hydrostatic stage: "elastic" or "law"; by how much the bonds' limits are
+  /// raised
+  std::string hydrostatic_branch;
+  std::optional<double> limits_raised_Pa;
+  std::optional<double> stage1_broken, stage1_yielded;  ///< bonds, at the end of that stage
+  std::optional<double> peak_stress_Pa;                 ///< total axial
+  std::optional<double> peak_deviator_Pa;               ///< total axial less confinement
+  bool peak_reached = false;  ///< the stress came down again after its largest value
   std::optional<double> strain_at_peak;
   /// measured, mean over the rows within 5 % of the peak: a servo need not hold what was asked for
   std::optional<double> confining_stress_at_peak_Pa;

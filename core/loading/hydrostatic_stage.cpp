@@ -18,6 +18,18 @@ bool is_slow(const Run& run) {
   return std::max(std::abs(v[0].z), std::abs(v[1].z)) < 0.1 * run.test.platen_speed;
 }
 
+/// What stage 1 did to the bonds.
+void count_yielded(Run& run) {
+  World& w = run.w;
+  const BrokenCount broken = count_broken(w);
+  run.result.stage1_broken = broken.tension + broken.shear;
+  std::vector<std::uint64_t> blocks;
+  if (!w.features.plasticity) return;
+  run.result.stage1_yielded = sum_pairs(w.partition, w.bonds, w.options.threads, blocks, [&](std::size_t k) {
+    return std::uint64_t{w.bonds.plastic_stretch[k] < 0.0};
+  });
+}
+
 }  // namespace
 
 bool press_hydrostatically(Run& run) {
@@ -25,7 +37,8 @@ bool press_hydrostatically(Run& run) {
   const double pressure = run.test.confinement, crossing = crossing_time(w, run.assembly);
   const double rise = 16.0 * crossing, patience = 400.0 * crossing;  // (B67)
   w.platens.servo = true;
-  double stress = 0.0;  // mean since the last check
+  if (run.test.loading != Loading::shear) w.platens.rough = false;  // (B110)
+  double stress = 0.0;                                              // mean since the last check
   constexpr int between_checks = 50;
   if (run.state.stage == Stage::not_begun) enter(run, Stage::pressing);
   const double start = run.state.stage_start;
@@ -67,6 +80,7 @@ bool press_hydrostatically(Run& run) {
     stress = 0.0;
   }
   if (run.test.loading != Loading::shear) run.result.held_pressure = held_pressure(w);
+  count_yielded(run);
   // the lid of a shear box stays under its pressure
   w.platens.servo = run.test.loading == Loading::shear;
   return true;

@@ -9,14 +9,15 @@ double gauge_now(const World& w, const Gauge& g) {
 
 }  // namespace
 
-Instruments make_instruments(const World& w, const Assembly& a, const LoadTest& test, const Datum* zeros) {
+Instruments make_instruments(const World& w, const Assembly& a, const LoadTest& test,
+                             std::span<const Gid> left_out, const Datum* zeros) {
   Instruments in;
   in.loading = test.loading;
   in.grip = a.grip;
   in.sign = test.loading == Loading::tension ? -1.0 : 1.0;
   in.lateral_directions = a.space == Space::two_d ? 1 : 2;
   if (a.grip == Support::ends) in.axial = axial_gauge(a);
-  if (a.grip != Support::halves) in.lateral = lateral_gauge(a);
+  if (a.grip != Support::halves) in.lateral = lateral_gauge(a, left_out);
   in.zeros = zeros ? *zeros
                    : Datum{gauge_now(w, in.axial), gauge_now(w, in.lateral), approach(w.platens),
                            shear_travel(w.platens)};

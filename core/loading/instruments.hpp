@@ -18,9 +18,10 @@ struct Instruments {
   Support grip = Support::ends;
 };
 
+/// @param left_out  of the lateral gauge: what has come loose
 /// @param zeros  where everything stood; nothing: it stands there now
 Instruments make_instruments(const World& world, const Assembly& assembly, const LoadTest& test,
-                             const Datum* zeros = nullptr);
+                             std::span<const Gid> left_out = {}, const Datum* zeros = nullptr);
 
 /// One reading after a step. (B91)
 StepReading read(World& world, const Instruments& instruments);

@@ -27,6 +27,7 @@ struct LoadResult {
   std::vector<Cycle> cycles;
   Stopped stopped = Stopped::strain;
   std::uint64_t stage1_steps = 0;
+  std::uint64_t stage1_broken = 0, stage1_yielded = 0;              ///< bonds, at the end of stage 1
   double held_pressure = std::numeric_limits<double>::quiet_NaN();  ///< Pa, at the end of stage 1; NaN: none
   double run_time = 0;                                              ///< s, wall, of both stages
   std::vector<std::string> warnings;
@@ -50,6 +51,7 @@ struct LoadState {
   double speed = 0;        ///< m/s, of the platens
   double peak = 0;         ///< Pa, so far
   Datum zeros;
+  std::vector<Gid> left_out;  ///< of the gauges: what had come loose when they were set to zero
   LoadPath direction;
   std::size_t next_unloading = 0;  ///< in LoadTest::unload_at
   std::size_t frames = 0;          ///< taken

@@ -66,6 +66,7 @@ void set_speed(World& w, Loading loading, double speed) {
 void load(Run& run) {
   World& w = run.w;
   const LoadTest& test = run.test;
+  w.platens.rough = w.options.rough_platens;  // (B110): stage 1 left the ends free
   const Instruments in = begin_or_go_on(run, Stage::loading);
   const double width = test.loading == Loading::shear ? w.body.diameter : run.assembly.length();
   const double duration = test.stop_strain * width / (2.0 * test.platen_speed);

@@ -2,6 +2,8 @@
 #pragma once
 #include <vector>
 
+#include "core/base/scene_options.hpp"
+
 namespace breccia {
 
 /// compression: platens towards each other. tension: apart. shear: the halves of a shear box along
@@ -10,7 +12,9 @@ enum class Loading { compression, tension, shear, hydrostatic };
 
 struct LoadTest {
   Loading loading = Loading::compression;
-  double confinement = 0;     ///< Pa
+  double confinement = 0;  ///< Pa
+  HydrostaticResponse hydrostatic_response = HydrostaticResponse::law;
+  double limits_raised = 0;   ///< Pa, of the bonds by that
   double platen_speed = 0.1;  ///< m/s, of each platen
   double stop_strain = 0.02;  ///< platen travel over length since the end of stage 1
   double stop_after_peak =

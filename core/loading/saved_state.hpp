@@ -25,6 +25,7 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("platens_force", w.platens.force);
   visit("platens_work", w.platens.work);
   visit("confinement_pressure", w.confinement.pressure);
+  visit("confinement_alone", w.confinement.alone);
 
   visit("search_awake", w.neighbour_list.awake);
   visit("search_slack", w.neighbour_list.slack);
@@ -48,6 +49,7 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("ledger_earlier_contacts", w.ledger.earlier_contacts);
   visit("ledger_platens", w.ledger.platens);
   visit("ledger_pressure", w.ledger.pressure);
+  visit("ledger_walls", w.ledger.walls);
   visit("ledger_damped_motion", w.ledger.damped_motion);
   visit("ledger_damped_spin", w.ledger.damped_spin);
   visit("ledger_kinetic", w.ledger.kinetic);
@@ -67,6 +69,7 @@ void for_each_number_of_test(S& state, R& result, Visit&& visit) {
   visit("speed", state.speed);
   visit("peak", state.peak);
   visit("zeros", state.zeros);
+  visit("left_out", state.left_out);
   visit("direction", state.direction);
   visit("next_unloading", state.next_unloading);
   visit("frames", state.frames);
@@ -89,6 +92,8 @@ void for_each_number_of_test(S& state, R& result, Visit&& visit) {
   visit("steps_per_row", result.record.steps_per_row);
   visit("cycles", result.cycles);
   visit("stage1_steps", result.stage1_steps);
+  visit("stage1_broken", result.stage1_broken);
+  visit("stage1_yielded", result.stage1_yielded);
   visit("held_pressure", result.held_pressure);
   visit("run_time", result.run_time);
 }

@@ -125,6 +125,24 @@ double held_around_peak(std::span<const CurveRow> rows, std::size_t peak) {
   return sum / static_cast<double>(last - first + 1);
 }
 
+/// What stage 1 did to the bonds.
+void read_stage1(const LaboratoryTest& test, const World& w, const LoadTest& load, const LoadResult& result,
+                 RunSummary& run) {
+  if (test.pressure != PressureRole::lateral || load.confinement == 0.0) return;
+  run.stage1_broken = static_cast<double>(result.stage1_broken);
+  if (!w.features.plasticity) return;
+  const bool elastic = load.hydrostatic_response == HydrostaticResponse::elastic;
+  run.stage1_yielded = static_cast<double>(result.stage1_yielded);
+  run.hydrostatic_branch = elastic ? "elastic" : "law";
+  run.limits_raised_Pa = load.limits_raised;
+  const double share = *run.stage1_yielded / static_cast<double>(w.bonds.size);
+  if (elastic && share > 0.05)
+    run.warnings.push_back(fmt::format(
+        "{:.0f} % of the bonds yielded under {:.4g} MPa alone, though their limits were raised by "
+        "{:.4g} MPa: loading does not start elastic",
+        100 * share, load.confinement * 1e-6, load.limits_raised * 1e-6));
+}
+
 /// A servo that lags holds another stress than was asked for: of a shear box that dilates quickly,
 /// the normal stress; of a hydrostatic test, the axial one.
 void warn_if_not_held(const LaboratoryTest& test, const LoadTest& load, const LoadResult& result,
@@ -244,6 +262,7 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
   run.stopped_by = name_of(result.stopped);
   run.warnings = result.warnings;
   warn_of_pressure(run);
+  read_stage1(test, w, load, result, run);
   warn_if_not_held(test, load, result, f, run);
   warn_if_not_unloaded(load, result, run);
   if (test.across) read_disc(w, a, result, run);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/threads.hpp"
+#include "core/boundary/release.hpp"
 #include "core/distributed/distribute.hpp"
 #include "core/distributed/gather.hpp"
 #include "core/distributed/halo.hpp"
@@ -124,6 +125,16 @@ void restrain_laterally(World& w) {
   restrain_laterally(w.confinement, w.particles, w.partition);
 }
 
+void hold_ends(World& w) {
+  const Lap lap(w.phases, Phase::platens);
+  push_back(w.end_walls, w.platens, w.particles, w.partition, w.step, w.dt, w.options.threads);
+}
+
+void release_unheld(World& w) {
+  const Lap lap(w.phases, Phase::confinement);
+  release_unheld(w.confinement, w.particles, w.partition, w.step, w.dt);
+}
+
 void account_energies(World& w) {
   if (!w.ledger.enabled) return;
   const Lap lap(w.phases, Phase::ledger);
@@ -132,7 +143,7 @@ void account_energies(World& w) {
 
 void move_platens(World& w) {
   const Lap lap(w.phases, Phase::platens);
-  drive_platens(w.platens, w.particles, w.partition, w.first_top, w.dt);
+  drive_platens(w.platens, w.particles, w.partition, w.first_top, w.end_walls.push, w.dt);
 }
 
 void integrate(World& w) {
@@ -157,8 +168,10 @@ void advance(World& w) {
   bond_forces(w);
   gather_bond_forces(w);
   contact_forces(w);
+  hold_ends(w);
   restrain_laterally(w);
   move_platens(w);
+  release_unheld(w);
   account_energies(w);
   integrate(w);
   start_halo_exchange(w);

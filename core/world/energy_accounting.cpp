@@ -97,13 +97,25 @@ double normal_damage(const World& w) {
       w.law);
 }
 
-struct SkinWork {
+/// Of forces from outside on listed rows.
+struct OuterWork {
   double over_this = 0, over_next = 0;  ///< J
-  SkinWork& operator+=(const SkinWork& o) {
+  OuterWork& operator+=(const OuterWork& o) {
     over_this += o.over_this, over_next += o.over_next;
     return *this;
   }
 };
+
+/// @param force  of the place in the list, N
+template <class Force>
+OuterWork work_of_listed(const World& w, std::span<const Row> rows, const Force& force) {
+  std::vector<OuterWork> blocks;
+  return sum_listed(w.partition, rows, 1, blocks, [&](std::size_t k) {
+    const Vec3& f = force(k);
+    return OuterWork{0.5 * w.dt * dot(f, w.particles.velocity[rows[k]]),
+                     0.5 * w.dt * dot(f, braked_motion(w, rows[k]).after)};
+  });
+}
 
 /// Added up in the order of ranks: other numbers of ranks differ in the last digits.
 Losses losses_of_all(const World& w) {
@@ -146,23 +158,22 @@ void account_motion(World& w) {
   ledger.platens.add(work.held_this, work.held_next);
   ledger.damped_motion.add(work.motion_this, work.motion_next);
   ledger.damped_spin.add(work.spin_this, work.spin_next);
-  if (w.confinement.rigid || w.confinement.rows.empty()) return;
-  std::vector<SkinWork> lateral_blocks;
-  SkinWork lateral;
-  if (w.confinement.pressure != 0.0)
-    lateral = sum_listed(w.partition, w.confinement.rows, 1, lateral_blocks, [&](std::size_t k) {
-      const Row row = w.confinement.rows[k];
-      const Vec3& force = w.confinement.force[k];
-      return SkinWork{0.5 * w.dt * dot(force, w.particles.velocity[row]),
-                      0.5 * w.dt * dot(force, braked_motion(w, row).after)};
-    });
+  const std::vector<Row>& near = w.end_walls.rows;
+  const OuterWork behind = near.empty() ? OuterWork{} : work_of_listed(w, near, [&](std::size_t k) {
+    return Vec3{0.0, 0.0, w.end_walls.force[k]};
+  });
+  ledger.walls.add(behind.over_this, behind.over_next);
+  const Confinement& c = w.confinement;
+  if (c.rigid || c.rows.empty()) return;
+  const OuterWork lateral =
+      c.pressure == 0.0 ? OuterWork{} : work_of_listed(w, c.rows, [&](std::size_t k) { return c.force[k]; });
   ledger.pressure.add(lateral.over_this, lateral.over_next);
 }
 
 EnergyBalance energy_balance(const World& w) {
   const EnergyLedger& ledger = w.ledger;
   EnergyBalance e;
-  e.work = ledger.platens.done + ledger.pressure.done + ledger.start;  // (B49)
+  e.work = ledger.platens.done + ledger.pressure.done + ledger.walls.done + ledger.start;  // (B49)
   e.kinetic = ledger.kinetic;
   e.stored = stored_energy(w, w.dt);  // (B50)
   const Losses losses = losses_of_all(w);

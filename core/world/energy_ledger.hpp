@@ -54,7 +54,7 @@ struct EnergyLedger {
   ContactLosses earlier_contacts;         ///< of the lists before
   /// Of these sums, those that count here: behind them come copies of what other ranks own
   std::size_t owned_bonds = 0, owned_contacts = 0;
-  TrapezoidSum platens, pressure;  ///< work in
+  TrapezoidSum platens, pressure, walls;  ///< work in
   TrapezoidSum damped_motion, damped_spin;
   double kinetic = 0;  ///< J, at the end of the last step
   double start = 0;    ///< J, kinetic and stored at the first forces

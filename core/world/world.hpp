@@ -6,6 +6,7 @@
 #include "core/base/timers.hpp"
 #include "core/bonding/assembly.hpp"
 #include "core/boundary/contact_search.hpp"
+#include "core/boundary/end_walls.hpp"
 #include "core/boundary/platens_and_confinement.hpp"
 #include "core/elastic/area_factor.hpp"
 #include "core/elastic/dashpots.hpp"
@@ -49,6 +50,7 @@ struct World {
   std::shared_ptr<World> replica;
   Platens platens;
   Confinement confinement;
+  EndWalls end_walls;
   NeighbourList neighbour_list;
   ScatterPlan bond_plan, contact_plan;
   CrackRecord cracks;

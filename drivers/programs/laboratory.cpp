@@ -84,6 +84,7 @@ struct RunOfSeries {
   const Ranks& ranks;
   const LaboratoryTest& test;
   std::size_t k = 0;
+  const AreaFactor& factor;
   const fs::path& folder;
   Progress& progress;
 };
@@ -147,7 +148,7 @@ Digests digests_of(const fs::path& folder, const std::vector<fs::path>& files) {
 /// @param state, result  of a run not begun, or from a checkpoint
 RunSummary run_one(const RunOfSeries& run, World& w, const Assembly& a, const std::string& finished,
                    LoadState& state, LoadResult& result) {
-  const LoadTest load = load_test(run.c, run.test, run.k);
+  const LoadTest load = load_test(run.c, run.test, run.k, run.factor);
   begin(run.progress, title_of(run.c, run.k));
   std::optional<CrackFile> crack_file;
   if (run.ranks.is_root() && w.cracks.enabled) {
@@ -298,7 +299,8 @@ void run_series(const LaboratoryTest& test, const CommandLine& line) {
   const ReadySpecimen ready = make_ready(c, test, asked, line.threads, progress);
   const WorldOptions options = world_options(c, test, asked, line.threads);
   if (line.explain || line.dry_run) {
-    const World w = make_world(ready.assembly, c.materials.front(), ready.factor, options);
+    const World w =
+        make_world(ready.assembly, material_of_run(c, test, 0, ready.factor), ready.factor, options);
     say(progress, step_line(w, c.safety));
     if (const std::string elastic = describe_elasticity(c, test, ready, line.threads); !elastic.empty())
       say(progress, elastic);
@@ -327,7 +329,7 @@ void run_series(const LaboratoryTest& test, const CommandLine& line) {
   Stopped stopped = Stopped::strain;
   for (std::size_t k = series.runs.size(); k < c.test.confinement.size() && stopped != Stopped::interrupted;
        ++k) {
-    World w = make_world(ready.assembly, c.materials[k], ready.factor, options);
+    World w = make_world(ready.assembly, material_of_run(c, test, k, ready.factor), ready.factor, options);
     if (k == 0) say(progress, step_line(w, c.safety));
     LoadState state;
     LoadResult result;
@@ -336,8 +338,8 @@ void run_series(const LaboratoryTest& test, const CommandLine& line) {
       say(progress, fmt::format("goes on from step {} of run {} ({})", w.step, k + 1, found->file.string()));
     }
     const std::string finished = runs_text(series.runs);
-    series.runs.push_back(
-        run_one({c, ranks, test, k, line.out, progress}, w, ready.assembly, finished, state, result));
+    series.runs.push_back(run_one({c, ranks, test, k, ready.factor, line.out, progress}, w, ready.assembly,
+                                  finished, state, result));
     note_specimen(ready, series.runs.back());
     stopped = result.stopped;
     if (!ranks.is_root()) continue;

@@ -1,11 +1,30 @@
 #include "drivers/programs/scene_of_case.hpp"
 
-namespace breccia {
+#include "core/bonding/compressive_limits.hpp"
 
-LoadTest load_test(const Case& c, const LaboratoryTest& test, std::size_t run) {
+namespace breccia {
+namespace {
+
+HydrostaticBranch branch_of(const Case& c, const LaboratoryTest& test, std::size_t run) {
+  const double pressure = test.pressure == PressureRole::lateral ? c.test.confinement[run] : 0.0;
+  return {pressure > 0.0 ? c.test.hydrostatic_branch : HydrostaticResponse::law, pressure};
+}
+
+}  // namespace
+
+Material material_of_run(const Case& c, const LaboratoryTest& test, std::size_t run,
+                         const AreaFactor& factor) {
+  return with_bond_limits(c.materials[run], branch_of(c, test, run), factor.alpha, factor.fabric);
+}
+
+LoadTest load_test(const Case& c, const LaboratoryTest& test, std::size_t run, const AreaFactor& factor) {
   LoadTest load;
   load.loading = test.loading;
   load.confinement = c.test.confinement[run];
+  const HydrostaticBranch branch = branch_of(c, test, run);
+  load.hydrostatic_response = branch.response;
+  if (branch.response == HydrostaticResponse::elastic)
+    load.limits_raised = hydrostatic_bond_stress(branch.pressure, factor.alpha, factor.fabric);
   load.platen_speed = c.test.platen_speed;
   load.stop_strain = c.test.stop_strain;
   load.stop_after_peak = c.test.stop_after_peak;

@@ -1,5 +1,6 @@
 // What a case says, as the solver takes it.
 #pragma once
+#include "core/elastic/area_factor.hpp"
 #include "core/loading/laboratory_tests.hpp"
 #include "core/world/options.hpp"
 #include "io/cases/case.hpp"
@@ -7,7 +8,11 @@
 namespace breccia {
 
 /// Of run number `run`, one for each confinement.
-LoadTest load_test(const Case& c, const LaboratoryTest& test, std::size_t run);
+LoadTest load_test(const Case& c, const LaboratoryTest& test, std::size_t run, const AreaFactor& factor);
+
+/// The material of that run, its limits those of bonds in this specimen and this test.
+Material material_of_run(const Case& c, const LaboratoryTest& test, std::size_t run,
+                         const AreaFactor& factor);
 
 /// @param asked  features of the scene
 WorldOptions world_options(const Case& c, const LaboratoryTest& test, const Features& asked, int threads);

@@ -44,6 +44,7 @@ struct DampingCase {
 struct TestCase {
   std::vector<double> confinement{0.0};  ///< Pa
   bool rough_platens = true;
+  HydrostaticResponse hydrostatic_branch = HydrostaticResponse::elastic;
   double platen_speed = 0.1;  ///< m/s, of each platen
   double stop_strain = 0.02;
   double stop_after_peak = 0.5;   ///< fraction of the peak deviator; 0 = never

@@ -177,8 +177,10 @@ struct Checks : CaseLaid {
     idle("damping.rotation", c.features.rotation, "with features.rotation = false nothing spins");
     idle("output.stress", c.frames > 0, "with output.frames = 0 there is no picture to hold it");
     const auto presses = [](double p) { return p > 0; };
-    idle("test.skin_weights", std::any_of(c.test.confinement.begin(), c.test.confinement.end(), presses),
-         "without a confinement nothing presses on the lateral surface");
+    const bool pressed = std::any_of(c.test.confinement.begin(), c.test.confinement.end(), presses);
+    idle("test.hydrostatic_branch", pressed, "without a confinement there is no stage 1");
+    idle("test.hydrostatic_branch", c.features.plasticity, "with features.plasticity = false nothing yields");
+    idle("test.skin_weights", pressed, "without a confinement nothing presses on the lateral surface");
   }
 
   /// Ranges that another key makes narrower.
@@ -194,6 +196,14 @@ struct Checks : CaseLaid {
   }
 
   void law(const std::string& name, const std::string& where) const {
+    const LawFacts& facts = facts_of(name);
+    const bool elastic = c.test.hydrostatic_branch == HydrostaticResponse::elastic;
+    if (elastic && has("test.hydrostatic_branch") && facts.plasticity && !facts.has("limits"))
+      no("test.hydrostatic_branch",
+         fmt::format("law {} has no limits to raise: it hardens from stage 1 on; valid: \"law\"",
+                     quote(name)));
+    if (elastic && !facts.plasticity)
+      idle("test.hydrostatic_branch", false, fmt::format("law {} never yields", quote(name)));
     const bool of_bonds = facts_of(name).has("normal_stiffness");
     if (of_bonds && c.bonds.alpha_rule != AlphaRule::number)
       no("bonds.alpha",

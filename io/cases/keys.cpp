@@ -37,6 +37,10 @@ Criterion criterion_of(std::string_view word) {
   return word == "coupled" ? coupled : word == "mohr-coulomb" ? mohr_coulomb : uncoupled;
 }
 
+ShearUnderYield shear_under_yield_of(std::string_view word) {
+  return word == "elastic" ? ShearUnderYield::elastic : ShearUnderYield::tangent;
+}
+
 DampingScheme scheme_of(std::string_view word) {
   using enum DampingScheme;
   return word == "capped" ? capped : word == "summed" ? summed : explicit_;
@@ -275,6 +279,21 @@ constexpr std::array keys{
         .words = "uncoupled coupled mohr-coulomb",
         .meaning = "how tension and shear share a bond's strength",
         .store_material = [](M& m, const R& r) { m.criterion = criterion_of(r.word); }},
+    Key{.name = "material.limits",
+        .kind = Kind::word,
+        .default_text = "bond",
+        .words = "bond macroscopic",
+        .meaning = "limit_compressive_stress is one of bonds, or of a specimen under even pressure",
+        .store_material =
+            [](M& m, const R& r) {
+              m.limits = r.word == "macroscopic" ? LimitStress::macroscopic : LimitStress::bond;
+            }},
+    Key{.name = "material.shear_under_yield",
+        .kind = Kind::word,
+        .default_text = "tangent",
+        .words = "tangent elastic",
+        .meaning = "k_s of a bond whose compression yields: falls as its tangent does, or stays",
+        .store_material = [](M& m, const R& r) { m.shear_under_yield = shear_under_yield_of(r.word); }},
 
     // --- bonds
     Key{.name = "bonds.range",
@@ -361,6 +380,18 @@ constexpr std::array keys{
         .reason = "this test sets no pressure",
         .meaning = "one run for each; hydrostatic: reached at the end; shear: on the lid of the box",
         .store = [](C& c, const R& r) { c.test.confinement = r.numbers; }},
+    Key{.name = "test.hydrostatic_branch",
+        .kind = Kind::word,
+        .default_text = "elastic",
+        .words = "elastic law",
+        .refused_by = [](const T& t) { return t.pressure != PressureRole::lateral; },
+        .reason = "this test has no pressure before its loading",
+        .meaning = "stage 1 loads bonds elastically, and loading starts from there; or by their law",
+        .store =
+            [](C& c, const R& r) {
+              c.test.hydrostatic_branch =
+                  r.word == "law" ? HydrostaticResponse::law : HydrostaticResponse::elastic;
+            }},
     Key{.name = "test.platens",
         .kind = Kind::word,
         .default_text = "rough",

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t format = 2;  ///< of the file; another one is not read
+constexpr std::uint64_t format = 3;  ///< of the file; another one is not read
 
 const ColumnInfo listed_position{"Vec3",      "listed_position", "m",
                                  Role::state, Need::always,      "centre when contacts were last listed"};

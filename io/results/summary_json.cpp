@@ -80,6 +80,10 @@ void for_each_rare_field(Run& run, Visit&& visit) {
   visit("bulk_modulus_Pa", run.bulk_modulus_Pa);
   visit("cycles", run.cycles);
   visit("confining_stress_at_peak_Pa", run.confining_stress_at_peak_Pa);
+  visit("hydrostatic_branch", run.hydrostatic_branch);
+  visit("limits_raised_Pa", run.limits_raised_Pa);
+  visit("stage1_broken", run.stage1_broken);
+  visit("stage1_yielded", run.stage1_yielded);
   visit("material_values", run.material_values);
   visit("files", run.files);
 }

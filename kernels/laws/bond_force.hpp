@@ -13,7 +13,28 @@ struct BondAction {
   R shear_factor;  ///< g of k_s
   Vec<R> shear;    ///< N, on lo
   Vec<R> rotated;  ///< N, the history of shear as it came into the step, turned with the pair
+  R yielded{};     ///< part of this step's slip that is plastic
 };
+
+/// (B107): the part of a step's slip that is plastic while the compression of a bond yields, so
+/// that the tangential stiffness falls as the normal tangent does: |du_p|/|du|. It frees no more
+/// shear force than pressure, so that it goes to nothing where the pair slides along its envelope
+/// without being pressed on, and gains from a slip that takes shear back no more than the
+/// compression loses: no closed path yields energy.
+/// @param flow     m, |du_p| of this step
+/// @param pressed  N, on the bond, mean of the step
+/// @param shear    N, the history, turned with the pair
+template <class R>
+inline R plastic_part_of_slip(const BondConstants<R>& bond, const R& shear_stiffness, const Pair<R>& pair,
+                              const R& flow, const R& pressed, const Vec<R>& shear) {
+  constexpr double tiny = 1e-300;
+  const R follows = flow / (larger(pair.stretching, -pair.stretching) + R(tiny));
+  const R slip = square_root(dot(pair.slip, pair.slip));
+  const R relaxes = bond.stiffness * flow / (shear_stiffness * slip + R(tiny));
+  const R taken_back = larger(R(0.0), -dot(shear, pair.slip));
+  const R gains = pressed * flow / (taken_back + R(tiny));
+  return smaller(smaller(R(1.0), follows), smaller(relaxes, gains));
+}
 
 /// N, on lo.
 template <class R>
@@ -27,11 +48,21 @@ inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, c
                                  BondHistory<R>& h) {
   const R u = pair.distance - bond.rest_length;  // (P26)
   const Vec<R> rotated = rotate_with_pair<features.rotation>(h.shear, pair);
-  h.shear = rotated + (R(law.shear_ratio) * bond.stiffness) * pair.slip;  // (B20) (P37)
-  R elastic = u;
+  const R shear_stiffness = R(law.shear_ratio) * bond.stiffness;
+  h.shear = rotated + shear_stiffness * pair.slip;  // (B20) (P37)
+  R elastic = u, yielded(0.0);
   if constexpr (features.plasticity) {
-    h.plastic_stretch = plastic_stretch(law, bond, u, h.plastic_stretch);
+    const R before = h.plastic_stretch;
+    h.plastic_stretch = plastic_stretch(law, bond, u, before);
     elastic = u - h.plastic_stretch;
+    const auto yields = h.plastic_stretch < before;
+    if (law.shear_follows && any(yields)) {
+      const R flow = before - h.plastic_stretch;
+      const R pressed = bond.stiffness * larger(R(0.5) * (pair.stretching + flow) - elastic, R(0.0));
+      const R part = plastic_part_of_slip(bond, shear_stiffness, pair, flow, pressed, rotated);
+      yielded = select(yields, part, R(0.0));
+      h.shear -= (yielded * shear_stiffness) * pair.slip;  // (B107)
+    }
   }
   BondForce<R> f;
   if constexpr (features.breakage)
@@ -49,7 +80,7 @@ inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, c
       total = select(broken && total > R(0.0), R(0.0), total);
     }
   }
-  return {f.normal, total, f.shear_factor, f.shear, rotated};
+  return {f.normal, total, f.shear_factor, f.shear, rotated, yielded};
 }
 
 /// The force alone.

@@ -13,7 +13,8 @@ struct DempackLaw {
   static constexpr std::string_view name = "dempack";
   static constexpr std::string_view takes =
       "friction_static friction_dynamic tensile_strength shear_strength limit_compressive_stress "
-      "stiffness_reduction damage_normal damage_shear fracture_energy_normal fracture_energy_shear criterion";
+      "stiffness_reduction damage_normal damage_shear fracture_energy_normal fracture_energy_shear criterion "
+      "limits shear_under_yield";
   static constexpr std::array<LawParameter, 0> own{};
   static constexpr std::array<LawDefault, 0> defaults{};
   static constexpr std::array feature_sets{
@@ -27,6 +28,7 @@ struct DempackLaw {
   double young = 0;        ///< Pa; E of the bonds: k_n = E A/L
   double shear_ratio = 0;  ///< kappa = k_s/k_n
   Failure failure;
+  bool shear_follows = true;             ///< k_s falls with the tangent of k_n (B107)
   std::array<double, 3> limit_stress{};  ///< Pa, LCS
   std::array<double, 3> limit_strain{};  ///< compressive strain at which each limit is met
   std::array<double, 3> slope{};         ///< Pa, E/YRC beyond each limit
@@ -36,6 +38,7 @@ struct DempackLaw {
     law.young = m.young_modulus;
     law.shear_ratio = shear_ratio;
     law.failure = failure_of(m, law.young, shear_ratio);
+    law.shear_follows = m.shear_under_yield == ShearUnderYield::tangent;
     law.limit_stress = m.limit_compressive_stress;
     double strain = 0.0, reached = 0.0, slope = m.young_modulus;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -12,7 +12,8 @@ namespace breccia {
 struct ExponentialLaw {
   static constexpr std::string_view name = "exponential";
   static constexpr std::string_view takes =
-      "friction_static friction_dynamic tensile_strength shear_strength damage_normal damage_shear";
+      "friction_static friction_dynamic tensile_strength shear_strength damage_normal damage_shear "
+      "shear_under_yield";
   static constexpr std::array own{
       LawParameter{"elastic_strain_limit", "1", 0.0, "0.002",
                    "e_max: compressive strain where hardening begins"},
@@ -20,12 +21,13 @@ struct ExponentialLaw {
       LawParameter{"hardening_rate", "1", 0.0, "16", "gamma_2: growth of K2 with strain"},
       LawParameter{"hardening_floor", "1", 0.0, "0.275", "gamma_3: of the constant part of K2/k_n"},
   };
-  static constexpr std::array<LawDefault, 0> defaults{};
+  static constexpr std::array defaults{LawDefault{"test.hydrostatic_branch", "law"}};
   static constexpr std::array feature_sets{Features{.criterion = Criterion::mohr_coulomb}};
 
   double young = 0;        ///< Pa
   double shear_ratio = 0;  ///< k_s/k_n
   Failure failure;
+  bool shear_follows = true;               ///< k_s falls with the tangent of k_n (B107)
   double strain_limit = 0;                 ///< e_max
   double factor = 0, rate = 0, floor = 0;  ///< gamma_1, gamma_2, gamma_3
   double most = 0;                         ///< gamma_2 (e - e_max) beyond which K2 = k_n
@@ -35,6 +37,7 @@ struct ExponentialLaw {
     law.young = m.young_modulus;
     law.shear_ratio = shear_ratio;
     law.failure = failure_of(m, law.young, shear_ratio);
+    law.shear_follows = m.shear_under_yield == ShearUnderYield::tangent;
     law.failure.friction_pulled = m.friction_static;  // (B27): F_n of either sign
     law.strain_limit = m.own.at("elastic_strain_limit");
     law.factor = m.own.at("hardening_factor");

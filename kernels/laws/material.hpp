@@ -10,6 +10,13 @@
 
 namespace breccia {
 
+/// What the tangential stiffness of a bond does while its compression yields: it falls as the
+/// normal tangent does, or stays elastic. (B107)
+enum class ShearUnderYield : unsigned char { tangent, elastic };
+
+/// What limit_compressive_stress is a stress of: a bond, or a specimen under even pressure. (B109)
+enum class LimitStress : unsigned char { bond, macroscopic };
+
 /// Parameters of a bond law for one confinement; their names are those of Onate et al. 2015, tables
 /// 2 to 6. Which of them a law takes, its header says.
 struct Material {
@@ -28,6 +35,8 @@ struct Material {
   std::optional<double> fracture_energy_shear;   ///< J/m^2, G_II: instead of damage_shear
   std::string law = "dempack";
   Criterion criterion = Criterion::uncoupled;
+  ShearUnderYield shear_under_yield = ShearUnderYield::tangent;
+  LimitStress limits = LimitStress::bond;
   std::map<std::string, double, std::less<>> own;  ///< parameters that one law alone has, by their keys
 };
 

@@ -35,6 +35,7 @@ struct Pair {
   Vec<R> normal_before;  ///< one step ago
   R turn_cosine;         ///< of the angle between the two
   R rate;                ///< m/s, of elongation
+  R stretching;          ///< m, elongation of this step, to first order
   Vec<R> slip;           ///< m, tangential displacement of this step
   R twist;               ///< rad, mean turn of both ends about the normal in this step
 };
@@ -57,6 +58,7 @@ inline Pair<R> relative_motion(const Ends<R>& ends, const R& arm_offset, double 
   p.normal_before = (per_distance * shrunk) * before;
   p.turn_cosine = dot(before, l) * per_square * shrunk;
   p.rate = dot(dv, p.normal);  // (P26)
+  p.stretching = step * p.rate;
   Vec<R> at_contact = dv - p.rate * p.normal;
   if constexpr (rotation) {
     // arms times spins, as mean and difference of the ends: the same bits whichever end comes

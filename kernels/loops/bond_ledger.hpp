@@ -63,8 +63,12 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
   const R shear_kept = compliance * (action.shear_factor * dot(h.shear, h.shear) -
                                      last.shear_factor * dot(action.rotated, action.rotated));
   R shear_loss = shear_work - shear_kept;  // (B53)
-  if constexpr (features.plasticity)
+  R in_shear(0.0);                         // J, taken up by slip that is plastic
+  if constexpr (features.plasticity) {
     loss.plastic = mean_spring * (h.plastic_stretch - before.plastic_stretch);  // (B51)
+    in_shear = action.yielded * shear_work;                                     // (B107)
+    shear_loss -= in_shear;
+  }
 
   if constexpr (features.breakage) {
     const auto was_broken = before.damage_normal >= one || before.damage_shear >= one;
@@ -97,6 +101,7 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
   } else {
     loss.damage = shear_loss;  // round-off, and an error of the step where a pair turns fast
   }
+  loss.plastic += in_shear;
   last = {action.spring, viscous, action.shear_factor};
   return loss;
 }

@@ -122,6 +122,18 @@ void yield(const Parameters& p, Bond& b, double u) {
   if (s > limit) b.u_p = u + limit * b.area / b.k_n;
 }
 
+// (B107): the part of the slip that is plastic. It is that of the stretch, but loses no more shear
+// force than the pressure loses, and gains no more work than the pressure loses.
+double plastic_slip(const Parameters& p, const Bond& b, double flow, double longer, double u_e, const Vec3& F,
+                    const Vec3& du) {
+  if (!p.shear_follows || flow <= 0 || norm(du) == 0) return 0;
+  double part = std::min(1.0, flow / std::abs(longer));
+  part = std::min(part, b.k_n * flow / (b.k_s * norm(du)));
+  const double gain = -dot(F, du);
+  if (gain > 0) part = std::clamp(-b.k_n * (u_e - 0.5 * (longer + flow)) * flow / gain, 0.0, part);
+  return part;
+}
+
 void fail(Bond& b, Broken mode) {
   b.broken = mode;
   (mode == Broken::tension ? b.D_n : b.D_s) = 1;
@@ -277,10 +289,11 @@ void make_bonds(World& world) {
 // --- Sections 3 and 4
 // ---------------------------------------------------------------------------------------------
 
-void bond_law(const Parameters& p, Bond& b, double u, const Vec3& carried, const Vec3& du) {
-  b.F_s = carried + b.k_s * du;  // (B20)
+void bond_law(const Parameters& p, Bond& b, double u, double longer, const Vec3& carried, const Vec3& du) {
+  const double before = b.u_p;
   if (p.plasticity) yield(p, b, u);
   const double u_e = u - b.u_p;
+  b.F_s = carried + (1 - plastic_slip(p, b, before - b.u_p, longer, u_e, carried, du)) * b.k_s * du;  // (B20)
   if (b.broken == Broken::no) intact_bond(p, b, u_e);
   if (b.broken != Broken::no) broken_bond(p, b, u_e);  // also in the very step of failure
 }
@@ -288,7 +301,7 @@ void bond_law(const Parameters& p, Bond& b, double u, const Vec3& carried, const
 void update_bond(const Parameters& p, Bond& b, Particle& i, Particle& j, double dt) {
   const Kinematics k = kinematics(i, j, dt);
   const double u = k.d - b.d0;
-  bond_law(p, b, u, carry(b.F_s, k), k.du);
+  bond_law(p, b, u, dt * k.v_n, carry(b.F_s, k), k.du);
 
   b.normal_total = b.normal_force;
   if (p.contact_damping && b.broken == Broken::no) {
@@ -352,7 +365,7 @@ std::vector<Bond> bond_path(const Parameters& p, Bond b, std::span<const PathPoi
   std::vector<Bond> history;
   PathPoint last;
   for (const PathPoint& point : path) {
-    bond_law(p, b, point.u, b.F_s, {0, point.y - last.y, point.z - last.z});
+    bond_law(p, b, point.u, point.u - last.u, b.F_s, {0, point.y - last.y, point.z - last.z});
     history.push_back(b);
     last = point;
   }

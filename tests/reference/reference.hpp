@@ -34,8 +34,9 @@ struct Parameters {
   double xi = 0.9;                                       ///< contact damping, fraction of critical
   double damping_translation = 0, damping_rotation = 0;  ///< global, non-viscous
   Criterion criterion = Criterion::uncoupled;
-  double alpha = 1.0;  ///< factor on contact areas
-  double beta = 0.10;  ///< bonding range
+  bool shear_follows = true;  ///< k_s falls as k_n does while compression yields
+  double alpha = 1.0;         ///< factor on contact areas
+  double beta = 0.10;         ///< bonding range
   bool rotation = true, plasticity = true, breakage = true, contact_damping = true, unbonded_contacts = true;
 };
 
@@ -94,9 +95,10 @@ Bond make_bond(const Parameters&, const std::vector<Particle>&, std::size_t i, s
 void make_bonds(World&);
 
 /// The law of one bond: its history and forces (without damping) at stretch u.
+/// @param longer   elongation of this step
 /// @param carried  F_s of the last step, turned with the bond
 /// @param du       tangential displacement of this step
-void bond_law(const Parameters&, Bond&, double u, const Vec3& carried, const Vec3& du);
+void bond_law(const Parameters&, Bond&, double u, double longer, const Vec3& carried, const Vec3& du);
 
 /// Law, contact damping and the pair's forces and torques, added to the two particles.
 void update_bond(const Parameters&, Bond&, Particle& i, Particle& j, double dt);

@@ -88,7 +88,7 @@ TEST_CASE(
     std::fill(t.force.begin(), t.force.end(), Vec3{});
     t.force[t.free].z = -0.25 * force, t.force[a.first_top - 1].z += -0.75 * force;
     t.force[a.first_top].z = 0.5 * force, t.force[t.size - 1].z += 0.5 * force;
-    drive_platens(p, t, serial_partition(t.size), a.first_top, dt);
+    drive_platens(p, t, serial_partition(t.size), a.first_top, {}, dt);
     most = std::max(most, scene::platen_stress(p)[0]);
   }
   for (const double stress : scene::platen_stress(p)) CHECK(stress == doctest::Approx(9e6).epsilon(1e-9));
@@ -124,7 +124,7 @@ TEST_CASE("boundary: without a servo platens keep their speed and read reactions
   ParticleTable t = a.particles;
   t.force[t.free] = {3, 5, -70}, t.force[a.first_top] = {-7, 1, 90}, t.force[0].z = 1e9;
   p.velocity = {Vec3{0.03, 0, 0.1}, Vec3{0, 0, -0.2}};
-  drive_platens(p, t, serial_partition(t.size), a.first_top, 1e-3);
+  drive_platens(p, t, serial_partition(t.size), a.first_top, {}, 1e-3);
   CHECK(p.force[0] == Vec3{3, 5, -70});
   CHECK(p.force[1] == Vec3{-7, 1, 90});
   CHECK(axial_stress(p) == doctest::Approx(80 / p.section).epsilon(1e-14));

@@ -139,6 +139,25 @@ void add_compression(const Parameters& p, std::vector<Claim>& claims) {
   REQUIRE(three_slopes(p, 0.06) > p.LCS[2]);
 }
 
+/// Slip while the compression yields: k_s/YRC of the branch, k_s before and when unloaded.
+void add_shear_under_yield(const Parameters& p, std::vector<Claim>& claims) {
+  for (const Bond& b : several_bonds(p)) {
+    const double L = length_of(p, b), first = p.LCS[0] / p.E,
+                 second = first + (p.LCS[1] - p.LCS[0]) * p.YRC[0] / p.E;
+    const double u1 = -first * L, u2 = -0.9 * second * L, u3 = 0.95 * u2, y = 0.3 * (u1 - u2);
+    const double left = p.shear_follows ? 1.0 / p.YRC[0] : 1.0;
+    claims.push_back(claim("shear under yield", b, along({{u1, 0.1 * y}, {u2, 1.1 * y}, {u3, 1.2 * y}}, 60),
+                           p.LCS[1] * b.area, [&, most = 0.0](PathPoint q) mutable {
+                             most = std::min(most, q.u);
+                             const double s = three_slopes(p, -most / L), back = q.u - most;
+                             const double slip = q.y <= 0.1 * y   ? q.y
+                                                 : q.y <= 1.1 * y ? 0.1 * y + left * (q.y - 0.1 * y)
+                                                                  : 0.1 * y + left * y + (q.y - 1.1 * y);
+                             return Vec3{-b.area * s + b.k_n * back, b.k_s * slip, 0};
+                           }));
+  }
+}
+
 /// Loading, unloading, reloading, through zero, softening in tension from the plastic stretch,
 /// secant unloading.
 void add_plastic_then_tension(const Parameters& p, std::vector<Claim>& claims) {
@@ -286,6 +305,17 @@ TEST_CASE(
   add_damage_compression_tension(p, claims);
   hold<uncoupled>(p, claims);
   hold<mohr_coulomb>(p, claims);
+}
+
+TEST_CASE(
+    "dempack/shear: k_s under yield falls with the normal tangent, or stays [(B107), closed form, 1e-12]") {
+  for (const bool follows : {true, false}) {
+    Parameters p = tough();
+    p.shear_follows = follows;
+    std::vector<Claim> claims;
+    add_shear_under_yield(p, claims);
+    hold<uncoupled>(p, claims);
+  }
 }
 
 TEST_CASE(
@@ -487,7 +517,8 @@ TEST_CASE("dempack/mohr-coulomb: tension lowers the shear strength, pressure rai
 }
 
 TEST_CASE("dempack/toggles: no breakage and no plasticity is a spring, either alone is kept [(P29), 1e-12]") {
-  const Parameters p = tough();
+  Parameters p = tough();
+  p.shear_follows = false;
   std::vector<Claim> spring, plastic;
   for (const Bond& b : several_bonds(p)) {
     const double far = 0.02 * b.d0, L = length_of(p, b);

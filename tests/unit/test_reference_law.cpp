@@ -439,6 +439,63 @@ TEST_CASE("reference/energy: one bond dissipates the area under its branch, O(du
   CHECK(work(pull, bond_path(p, tough, pull)) / tough.area == doctest::Approx(60).epsilon(1e-6));
 }
 
+TEST_CASE(
+    "reference/energy: no step of yielding gives back more than was stored, whatever its slip [(B107)]") {
+  std::mt19937 random(107);
+  std::uniform_real_distribution<double> in(-1.0, 1.0), unit(0.0, 1.0);
+  Parameters p;
+  p.breakage = false;
+  const Bond b = unit_bond(p);
+  const double deep = 0.02 * b.d0;
+  const auto stored = [&](const Bond& c, double u) {
+    return 0.5 * b.k_n * (u - c.u_p) * (u - c.u_p) + 0.5 * dot(c.F_s, c.F_s) / b.k_s;
+  };
+  double least = 1.0;
+  int taken_back = 0;
+  for (int loop = 0; loop < 300; ++loop) {
+    std::vector<PathPoint> corners;
+    const double across = deep * std::pow(10.0, 1.0 - 2.0 * unit(random));
+    for (int k = 0; k < 6; ++k)
+      corners.push_back({-deep * unit(random), across * in(random), across * in(random)});
+    const auto path = along(corners, 2000);
+    const auto bonds = bond_path(p, b, path);
+    PathPoint a;
+    Bond f = b;
+    for (std::size_t k = 0; k < path.size(); a = path[k], f = bonds[k], ++k) {
+      const Vec3 slip{0, path[k].y - a.y, path[k].z - a.z};
+      const Vec3 shear = 0.5 * (f.F_s + bonds[k].F_s);
+      const double work =
+          0.5 * (f.normal_force + bonds[k].normal_force) * (path[k].u - a.u) + dot(shear, slip);
+      const double lost = work - (stored(bonds[k], path[k].u) - stored(f, a.u));
+      least = std::min(least, lost / (p.LCS[0] * b.area * deep));
+      taken_back += bonds[k].u_p < f.u_p && dot(f.F_s, slip) < 0;
+    }
+  }
+  CHECK(least > -1e-9);
+  CHECK(taken_back > 10000);
+}
+
+TEST_CASE("reference/energy: shear under yield goes over into the elastic one as pressing stops [(B107)]") {
+  Parameters p;
+  const Bond b = unit_bond(p);
+  const double u1 = -2 * p.LCS[0] / p.E * b.d0, slip = 1e-6 * b.d0;
+  const Bond pressed = bond_path(p, b, std::vector<PathPoint>{{u1}}).back();
+  double last = 0.0;
+  for (const double push : {1e-8, 1e-7, 1e-6, 1e-5}) {  // of the length, with the same slip
+    Bond c = pressed;
+    bond_law(p, c, u1 - push * b.d0, -push * b.d0, {}, {0, slip, 0});
+    const double lost = 1 - c.shear_force.y / (b.k_s * slip);
+    // what the pressure loses over what the shear would gain, at most 1 - 1/YRC1
+    CHECK(lost ==
+          doctest::Approx(std::min(2.0 / 3, 2.0 / 3 * push * b.k_n * b.d0 / (b.k_s * slip))).epsilon(1e-6));
+    CHECK(lost >= last);
+    last = lost;
+  }
+  Bond c = pressed;
+  bond_law(p, c, u1 + 1e-9 * b.d0, 1e-9 * b.d0, {}, {0, slip, 0});
+  CHECK(c.shear_force.y == doctest::Approx(b.k_s * slip).epsilon(1e-12));
+}
+
 TEST_CASE("reference/toggles: no breakage and no plasticity is a spring [rel 1e-12]") {
   Parameters p;
   p.breakage = p.plasticity = false;

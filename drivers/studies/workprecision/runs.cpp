@@ -135,7 +135,8 @@ std::optional<Outcome> run_trial(
     const Assembly assembly = shaken(ready.assembly, trial.shake, trial.shake_size);
     const WorldOptions options =
         world_options(c, *find_laboratory_test(scene.test), scene.asked, trial.threads);
-    World w = make_world(assembly, c.materials.front(), ready.factor, options);
+    const LaboratoryTest& test = *find_laboratory_test(scene.test);
+    World w = make_world(assembly, material_of_run(c, test, 0, ready.factor), ready.factor, options);
     LoadHooks hooks;
     hooks.interrupted = stop;
     if (progress)
@@ -143,7 +144,7 @@ std::optional<Outcome> run_trial(
         progress(w, stage, fraction, row);
       };
     LoadResult result;
-    run_load_test(w, assembly, load_test(c, *find_laboratory_test(scene.test), 0), hooks, result);
+    run_load_test(w, assembly, load_test(c, test, 0, ready.factor), hooks, result);
     if (result.stopped == Stopped::interrupted) return std::nullopt;
     outcome = outcome_of(w, result);
   } catch (const SimulationBroke& broke) {

@@ -1,0 +1,97 @@
+#include "core/boundary/end_walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace breccia {
+namespace {
+
+constexpr std::uint64_t list_every = 64;  // steps
+
+struct Fastest {
+  double speed2 = 0;
+  Fastest& operator+=(const Fastest& o) {
+    speed2 = std::max(speed2, o.speed2);
+    return *this;
+  }
+};
+
+struct Pushes {
+  std::array<double, 2> force{};
+  Pushes& operator+=(const Pushes& o) {
+    force[0] += o.force[0], force[1] += o.force[1];
+    return *this;
+  }
+};
+
+/// m, by which a sphere reaches beyond a plane.
+double depth(const EndWalls& walls, const Platens& platens, const ParticleTable& p, std::size_t row,
+             std::size_t end) {
+  const double outward = end == 0 ? -1.0 : 1.0;
+  const double plane = walls.place[end] + platens.travel[end].z;
+  return outward * (p.position[row].z - plane) + p.radius[row];
+}
+
+void list_near(EndWalls& walls, const Platens& platens, const ParticleTable& p, const Partition& partition,
+               double dt, int threads) {
+  std::vector<Fastest> blocks;
+  const Fastest most = sum_particles(partition, threads, blocks, [&](std::size_t row) {
+    return Fastest{dot(p.velocity[row], p.velocity[row])};
+  });
+  // both may move, and speed up, before the list is made anew
+  const double margin = 4.0 * static_cast<double>(list_every) * dt * std::sqrt(most.speed2);
+  std::vector<Row> mine;
+  const Rows free = partition.owned(0, p.free);
+  for (std::size_t row = free.first; row < free.last; ++row)
+    if (depth(walls, platens, p, row, 0) > -margin || depth(walls, platens, p, row, 1) > -margin)
+      mine.push_back(static_cast<Row>(row));
+  walls.rows = partition.ranks.alone()
+                   ? std::move(mine)
+                   : gather_elements_everywhere(partition.ranks, std::span<const Row>(mine));
+  walls.force.assign(walls.rows.size(), 0.0);
+}
+
+}  // namespace
+
+EndWalls make_end_walls(const Assembly& a, double young_modulus, double alpha) {
+  EndWalls walls;
+  walls.enabled = a.grip == Support::ends && a.particles.free < a.particles.size;
+  // (B111): as a bond of two equal spheres, pi r^2 alpha E/(2 r)
+  walls.stiffness = 0.5 * std::numbers::pi * alpha * young_modulus;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  walls.place = {far, -far};
+  for (std::size_t row = 0; row < a.particles.size; ++row) {
+    const double z = a.particles.position[row].z, r = a.particles.radius[row];
+    walls.place = {std::min(walls.place[0], z - r), std::max(walls.place[1], z + r)};
+  }
+  return walls;
+}
+
+void push_back(EndWalls& walls, const Platens& platens, ParticleTable& p, const Partition& partition,
+               std::uint64_t step, double dt, int threads) {
+  if (!walls.enabled) return;
+  if (step >= walls.next_list) {
+    list_near(walls, platens, p, partition, dt, threads);
+    walls.next_list = step - step % list_every + list_every;
+  }
+  walls.push = {};
+  if (walls.rows.empty()) return;
+  std::vector<Pushes> blocks;
+  const Pushes all = sum_listed(partition, walls.rows, 1, blocks, [&](std::size_t k) {
+    const Row row = walls.rows[k];
+    Pushes one;
+    for (const std::size_t end : {0u, 1u}) {
+      // no further than a radius: what has passed a plane is not shot back
+      const double r = p.radius[row], d = std::min(depth(walls, platens, p, row, end), r);
+      if (d > 0.0) one.force[end] = (end == 0 ? 1.0 : -1.0) * walls.stiffness * r * d;
+    }
+    walls.force[k] = one.force[0] + one.force[1];
+    p.force[row].z += walls.force[k];
+    return one;
+  });
+  walls.push = all.force;
+}
+
+}  // namespace breccia
