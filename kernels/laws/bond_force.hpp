@@ -17,23 +17,17 @@ struct BondAction {
 };
 
 /// (B107): the part of a step's slip that is plastic while the compression of a bond yields, so
-/// that the tangential stiffness falls as the normal tangent does: |du_p|/|du|. It frees no more
-/// shear force than pressure, so that it goes to nothing where the pair slides along its envelope
-/// without being pressed on, and gains from a slip that takes shear back no more than the
-/// compression loses: no closed path yields energy.
+/// that the tangential stiffness falls as the normal tangent does: |du_p|/|du|. Slip that takes
+/// shear back gains no more than the compression loses, so that no closed path yields energy.
 /// @param flow     m, |du_p| of this step
 /// @param pressed  N, on the bond, mean of the step
 /// @param shear    N, the history, turned with the pair
 template <class R>
-inline R plastic_part_of_slip(const BondConstants<R>& bond, const R& shear_stiffness, const Pair<R>& pair,
-                              const R& flow, const R& pressed, const Vec<R>& shear) {
+inline R plastic_part_of_slip(const Pair<R>& pair, const R& flow, const R& pressed, const Vec<R>& shear) {
   constexpr double tiny = 1e-300;
   const R follows = flow / (larger(pair.stretching, -pair.stretching) + R(tiny));
-  const R slip = square_root(dot(pair.slip, pair.slip));
-  const R relaxes = bond.stiffness * flow / (shear_stiffness * slip + R(tiny));
   const R taken_back = larger(R(0.0), -dot(shear, pair.slip));
-  const R gains = pressed * flow / (taken_back + R(tiny));
-  return smaller(smaller(R(1.0), follows), smaller(relaxes, gains));
+  return smaller(smaller(R(1.0), follows), pressed * flow / (taken_back + R(tiny)));
 }
 
 /// N, on lo.
@@ -59,7 +53,7 @@ inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, c
     if (law.shear_follows && any(yields)) {
       const R flow = before - h.plastic_stretch;
       const R pressed = bond.stiffness * larger(R(0.5) * (pair.stretching + flow) - elastic, R(0.0));
-      const R part = plastic_part_of_slip(bond, shear_stiffness, pair, flow, pressed, rotated);
+      const R part = plastic_part_of_slip(pair, flow, pressed, rotated);
       yielded = select(yields, part, R(0.0));
       h.shear -= (yielded * shear_stiffness) * pair.slip;  // (B107)
     }

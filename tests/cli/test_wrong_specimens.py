@@ -187,8 +187,10 @@ class LooseSpheres(Specimens):
         self.kept(lambda x, y, z: math.hypot(x, y, z) > 0.012)
         without = self.summary(UCS, "ucs", ["--set", "bonds.alpha=1"])
         self.assertEqual(with_speck["loose_particles"], 1)
-        for key in ("young_modulus_Pa", "poisson_ratio", "peak_stress_Pa"):
-            self.assertAlmostEqual(with_speck[key] / without[key], 1, delta=0.02)
+        for key in ("young_modulus_Pa", "poisson_ratio"):
+            self.assertAlmostEqual(with_speck[key] / without[key], 1, delta=0.01)
+        # 300 spheres around a hole, from another row on: bonds break in another order
+        self.assertAlmostEqual(with_speck["peak_stress_Pa"] / without["peak_stress_Pa"], 1, delta=0.05)
 
     def test_unbonded_at_the_surface(self):
         self.grouped(lambda x, y, z: 0 if abs(z) < 0.02 and x > 0.014 else 1)

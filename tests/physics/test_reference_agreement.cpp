@@ -28,9 +28,13 @@ struct Torn {
   World world;
 };
 
-Torn make_torn(ref::Criterion criterion, ScatterKind scatter, int threads, std::size_t spheres = 100) {
+/// @param follows  shear yields with the compression: round-off of its plastic part, a quotient of
+///                 differences of lengths, then grows in a body that tears
+Torn make_torn(ref::Criterion criterion, ScatterKind scatter, int threads, std::size_t spheres = 100,
+               bool follows = false) {
   Torn t;
   ref::Parameters& p = t.parameters;
+  p.shear_follows = follows;
   p.criterion = criterion;
   p.alpha = 0.8;
   p.damping_translation = p.damping_rotation = 0.1;
@@ -81,10 +85,13 @@ double difference(Strided<const Vec3> a, const auto& b, std::size_t n) {
 
 TEST_CASE(
     "reference: a breaking specimen of 100 spheres after 200 steps: x, v, w, forces, history as the "
-    "reference [rel 1e-10]") {
-  for (const auto criterion :
-       {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb}) {
-    Torn first = make_torn(criterion, ScatterKind::private_sums, 1);
+    "reference [rel 1e-10; 1e-7 where shear yields]") {
+  for (const auto& [criterion, follows] : {std::pair{ref::Criterion::uncoupled, false},
+                                           {ref::Criterion::coupled, false},
+                                           {ref::Criterion::mohr_coulomb, false},
+                                           {ref::Criterion::uncoupled, true}}) {
+    const double allowed = follows ? 1e-7 : 1e-10;
+    Torn first = make_torn(criterion, ScatterKind::private_sums, 1, 100, follows);
     ref::World want = scene::to_reference(first.world, first.parameters, groups(first.world));
     REQUIRE(want.bonds.size() == first.world.bonds.size);
     const double dt = first.world.dt;
@@ -123,7 +130,7 @@ TEST_CASE(
                                            {ScatterKind::gather, 2}})
       for (int set = 0; set <= static_cast<int>(best_instruction_set()); ++set) {
         if (threads == 2 && set != static_cast<int>(best_instruction_set())) continue;
-        World w = make_torn(criterion, scatter, threads).world;
+        World w = make_torn(criterion, scatter, threads, 100, follows).world;
         w.bond_pass = bond_pass_for(w.law, w.features, static_cast<InstructionSet>(set));
         for (int k = 0; k < steps; ++k) advance(w);
         const ParticleTable& p = w.particles;
@@ -132,16 +139,16 @@ TEST_CASE(
         for (std::size_t k = 0; k < p.size; ++k) moved[k] = p.position[k] - p.reference_position[k];
         const auto& r = want.particles;
         CHECK(difference(
-                  moved, [&](std::size_t k) { return r[k].x - p.reference_position[k]; }, p.size) < 1e-10);
+                  moved, [&](std::size_t k) { return r[k].x - p.reference_position[k]; }, p.size) < allowed);
         CHECK(difference(
-                  p.velocity, [&](std::size_t k) { return r[k].v; }, p.size) < 1e-10);
+                  p.velocity, [&](std::size_t k) { return r[k].v; }, p.size) < allowed);
         CHECK(difference(
-                  p.spin, [&](std::size_t k) { return r[k].w; }, p.size) < 1e-10);
+                  p.spin, [&](std::size_t k) { return r[k].w; }, p.size) < allowed);
         const scene::Forces f = scene::forces_now(w);
         CHECK(difference(
-                  f.force, [&](std::size_t k) { return r[k].force; }, p.size) < 1e-10);
+                  f.force, [&](std::size_t k) { return r[k].force; }, p.size) < allowed);
         CHECK(difference(
-                  f.torque, [&](std::size_t k) { return r[k].torque; }, p.size) < 1e-10);
+                  f.torque, [&](std::size_t k) { return r[k].torque; }, p.size) < allowed);
       }
   }
 }
@@ -178,6 +185,7 @@ TEST_CASE(
        {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb}) {
     ref::Parameters p;
     p.criterion = criterion;
+    p.shear_follows = false;
     p.rotation = false;
     p.alpha = 0.8;
     p.beta = 0.03;

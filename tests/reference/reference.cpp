@@ -122,13 +122,12 @@ void yield(const Parameters& p, Bond& b, double u) {
   if (s > limit) b.u_p = u + limit * b.area / b.k_n;
 }
 
-// (B107): the part of the slip that is plastic. It is that of the stretch, but loses no more shear
-// force than the pressure loses, and gains no more work than the pressure loses.
+// (B107): the part of the slip that is plastic. It is that of the stretch, but gains no more work
+// than the pressure loses.
 double plastic_slip(const Parameters& p, const Bond& b, double flow, double longer, double u_e, const Vec3& F,
                     const Vec3& du) {
   if (!p.shear_follows || flow <= 0 || norm(du) == 0) return 0;
   double part = std::min(1.0, flow / std::abs(longer));
-  part = std::min(part, b.k_n * flow / (b.k_s * norm(du)));
   const double gain = -dot(F, du);
   if (gain > 0) part = std::clamp(-b.k_n * (u_e - 0.5 * (longer + flow)) * flow / gain, 0.0, part);
   return part;

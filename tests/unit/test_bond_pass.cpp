@@ -161,7 +161,7 @@ bool same_history(const BondTable& a, std::size_t k, const BondTable& b, std::si
 
 TEST_CASE(
     "bond pass: all feature sets and instruction sets as the reference's pair update [random pairs, rel "
-    "1e-11]") {
+    "1e-10]") {
   for (const Kernel& kernel : kernels())
     for (const InstructionSet set : scene::sets_of_this_machine()) {
       const Features& features = kernel.features;
@@ -207,9 +207,11 @@ TEST_CASE(
       for (const ref::Bond& b : s.reference) newly_broken += b.broken != ref::Broken::no;
       INFO(name_of(set), ", rotation ", features.rotation, ", plasticity ", features.plasticity,
            ", breakage ", features.breakage, ", criterion ", int(kernel.criterion));
-      CHECK(force < 1e-11);
-      CHECK(moment < 1e-11);
-      CHECK(history < 1e-11);
+      // the plastic part of a slip is a quotient of differences of lengths (B107), good to 1e-16
+      // d/du
+      CHECK(force < 1e-10);
+      CHECK(moment < 1e-10);
+      CHECK(history < 1e-10);
       if (features.breakage) CHECK(newly_broken + broken > 10);
     }
 }

@@ -475,27 +475,6 @@ TEST_CASE(
   CHECK(taken_back > 10000);
 }
 
-TEST_CASE("reference/energy: shear under yield goes over into the elastic one as pressing stops [(B107)]") {
-  Parameters p;
-  const Bond b = unit_bond(p);
-  const double u1 = -2 * p.LCS[0] / p.E * b.d0, slip = 1e-6 * b.d0;
-  const Bond pressed = bond_path(p, b, std::vector<PathPoint>{{u1}}).back();
-  double last = 0.0;
-  for (const double push : {1e-8, 1e-7, 1e-6, 1e-5}) {  // of the length, with the same slip
-    Bond c = pressed;
-    bond_law(p, c, u1 - push * b.d0, -push * b.d0, {}, {0, slip, 0});
-    const double lost = 1 - c.shear_force.y / (b.k_s * slip);
-    // what the pressure loses over what the shear would gain, at most 1 - 1/YRC1
-    CHECK(lost ==
-          doctest::Approx(std::min(2.0 / 3, 2.0 / 3 * push * b.k_n * b.d0 / (b.k_s * slip))).epsilon(1e-6));
-    CHECK(lost >= last);
-    last = lost;
-  }
-  Bond c = pressed;
-  bond_law(p, c, u1 + 1e-9 * b.d0, 1e-9 * b.d0, {}, {0, slip, 0});
-  CHECK(c.shear_force.y == doctest::Approx(b.k_s * slip).epsilon(1e-12));
-}
-
 TEST_CASE("reference/toggles: no breakage and no plasticity is a spring [rel 1e-12]") {
   Parameters p;
   p.breakage = p.plasticity = false;
