@@ -83,7 +83,7 @@ Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid)
   c.rows = a.lateral;
   c.surface = a.lateral_surface();
   c.force.resize(c.rows.size());
-  c.alone.assign(c.rows.size(), 0.0);
+  c.drifts.assign(c.rows.size(), 0);
   if (weights == SkinWeights::voronoi) {
     c.weight = lateral_areas(a.particles, c.rows, a.body, a.space);
     return c;
@@ -143,8 +143,6 @@ struct SideSums {
 void press_sides(Confinement& c, ParticleTable& particles, const Partition& partition) {
   std::vector<SideSums> blocks;
   const SideSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
-    c.force[k] = {};
-    if (c.alone[k] < 0.0) return SideSums{};
     const Vec3& x = particles.position[c.rows[k]];
     const double side = x.x < 0.0 ? 1.0 : -1.0, push = c.pressure * c.weight[k];
     c.force[k] = {side * push, 0.0, 0.0};
@@ -154,7 +152,6 @@ void press_sides(Confinement& c, ParticleTable& particles, const Partition& part
   const double a = (s.net * s.z2 - s.tilt * s.z1) / det, b = (s.n * s.tilt - s.z1 * s.net) / det;
   c.acting = (s.inward - a * s.side - b * s.side_z) / c.surface;
   for_owned_entries(partition, c.rows, [&](std::size_t k) {
-    if (c.alone[k] < 0.0) return;
     c.force[k].x -= a + b * particles.position[c.rows[k]].z;
     particles.force[c.rows[k]] += c.force[k];
   });
@@ -184,8 +181,6 @@ void apply_confinement(Confinement& c, ParticleTable& particles, const Partition
   // correction a + b z + c (-y, x) that removes them and makes no moment about z
   std::vector<SkinSums> blocks;
   const SkinSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
-    c.force[k] = {};
-    if (c.alone[k] < 0.0) return SkinSums{};
     const Vec3& x = particles.position[c.rows[k]];
     const double radial = x.x * x.x + x.y * x.y;
     const double push = radial > 0.0 ? c.pressure * c.weight[k] : 0.0;
@@ -207,7 +202,6 @@ void apply_confinement(Confinement& c, ParticleTable& particles, const Partition
   const Eigen::Vector<double, 5> by = gram.ldlt().solve(left);
   c.acting = (s.inward + by[0] * s.out_x + by[1] * s.out_y + by[2] * s.out_xz + by[3] * s.out_yz) / c.surface;
   for_owned_entries(partition, c.rows, [&](std::size_t k) {
-    if (c.alone[k] < 0.0) return;
     const Vec3& x = particles.position[c.rows[k]];
     c.force[k] -= Vec3{by[0] + by[2] * x.z - by[4] * x.y, by[1] + by[3] * x.z + by[4] * x.x, 0.0};
     particles.force[c.rows[k]] += c.force[k];

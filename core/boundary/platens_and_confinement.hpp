@@ -58,7 +58,9 @@ struct Confinement {
   std::vector<Row> rows;
   std::vector<double> weight;  ///< m^2
   std::vector<Vec3> force;     ///< N, of this step
-  std::vector<double> alone;   ///< s, since nothing but the pressure acts; < 0: pressed no more (B112)
+  std::vector<char> drifts;    ///< nothing but the pressure acts on it in this step (B112)
+  std::vector<Row> flying;     ///< of this rank: others on which nothing acts, and that the fluid
+  std::vector<Vec3> brake;     ///< N, holds back in this step
 };
 
 /// @param rigid  a wall instead of a fluid

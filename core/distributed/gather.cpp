@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/boundary/release.hpp"
 #include "core/distributed/halo.hpp"
 #include "core/world/sync.hpp"
 
@@ -76,7 +75,6 @@ World& gather_scalars(World& w) {
   const Ranks& ranks = w.partition.ranks;
   gather_ledger(ranks, w.ledger, whole ? &whole->ledger : nullptr);
   std::vector<Vec3> push = gather_owned_entries<Vec3>(w.partition, w.confinement.rows, w.confinement.force);
-  std::vector<double> alone = gather_unheld(w.confinement, w.partition);
   if (!whole) return w;
   whole->time = w.time;
   whole->step = w.step;
@@ -85,7 +83,6 @@ World& gather_scalars(World& w) {
   whole->platens = w.platens;
   whole->confinement = w.confinement;
   whole->confinement.force = std::move(push);
-  whole->confinement.alone = std::move(alone);
   whole->phases = w.phases;
   whole->neighbour_list.next_check = w.neighbour_list.next_check;
   return *whole;

@@ -32,7 +32,8 @@ struct RunSummary {
   std::optional<double> strain_at_peak;
   /// measured, mean over the rows within 5 % of the peak: a servo need not hold what was asked for
   std::optional<double> confining_stress_at_peak_Pa;
-  std::optional<double> young_modulus_Pa;     ///< initial: slope between 5 and 25 % of the peak deviator
+  std::optional<double>
+      young_modulus_Pa;  ///< initial: slope of the straight part, up to 25 % of the peak deviator
   std::optional<double> young_modulus_50_Pa;  ///< tangent at half the peak deviator
   std::optional<double> poisson_ratio;
   std::optional<double> crack_initiation_stress_Pa;  ///< broken bonds reach 1 % of their number at the peak

@@ -25,7 +25,6 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("platens_force", w.platens.force);
   visit("platens_work", w.platens.work);
   visit("confinement_pressure", w.confinement.pressure);
-  visit("confinement_alone", w.confinement.alone);
 
   visit("search_awake", w.neighbour_list.awake);
   visit("search_slack", w.neighbour_list.slack);

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/base/hold.hpp"
-#include "core/boundary/release.hpp"
+#include "core/boundary/loose_surface.hpp"
 #include "core/distributed/gather.hpp"
 #include "core/distributed/halo.hpp"
 #include "core/world/energies.hpp"
@@ -105,7 +105,7 @@ void set_pressure(const Run& run, double pressure) {
 
 Instruments begin_or_go_on(Run& run, Stage stage) {
   const bool resumed = run.state.stage == stage;
-  if (!resumed) run.state.left_out = unheld(run.w.confinement, run.w.particles, run.w.partition);
+  if (!resumed) run.state.left_out = drifting(run.w.confinement, run.w.particles, run.w.partition);
   const Instruments in = make_instruments(run.w, run.assembly, run.test, run.state.left_out,
                                           resumed ? &run.state.zeros : nullptr);
   if (resumed) return in;

@@ -35,6 +35,25 @@ std::span<const CurveRow> rising(std::span<const CurveRow> rows, std::size_t pea
   return rows.subspan(first, last - first);
 }
 
+/// The straight part of the curve from which moduli are read: between 5 and 25 % of the peak
+/// deviator, or, where that part is bent, between the same fractions of less: under a large
+/// pressure bonds yield long before a quarter of the peak. (B82)
+std::span<const CurveRow> straight_part(std::span<const CurveRow> rows, std::size_t peak) {
+  constexpr double bent = 0.98;       // slope of the upper half over that of the lower
+  constexpr std::size_t fewest = 12;  // rows
+  const auto strain = [](const CurveRow& r) { return r.axial_strain; };
+  std::span<const CurveRow> part = rising(rows, peak, 0.05, 0.25);
+  for (double high = 0.25; high > 0.02; high *= 0.8) {
+    const auto shorter = rising(rows, peak, 0.2 * high, high);
+    if (shorter.size() < fewest) break;
+    part = shorter;
+    const auto lower = slope(rising(rows, peak, 0.2 * high, 0.6 * high), strain, deviator),
+               upper = slope(rising(rows, peak, 0.6 * high, high), strain, deviator);
+    if (!lower || !upper || !(*upper < bent * *lower)) break;
+  }
+  return part;
+}
+
 /// Why a largest deviator that the curve has come down from, or never rose to, is no strength.
 std::string doubt_about_peak(const CurveFindings& f, double confinement, std::span<const double> mismatch) {
   constexpr double mega = 1e-6;
@@ -91,7 +110,7 @@ CurveFindings read_curve(std::span<const CurveRow> rows, std::span<const double>
   if (!(f.peak_deviator > noise)) return f;  // nor do moduli follow from noise
 
   const auto strain = [](const CurveRow& r) { return r.axial_strain; };
-  const auto initial = rising(rows, f.peak_row, 0.05, 0.25);  // (B82)
+  const auto initial = straight_part(rows, f.peak_row);
   f.young_modulus = slope(initial, strain, deviator);
   f.young_modulus_50 = slope(rising(rows, f.peak_row, 0.45, 0.55), strain, deviator);
   if (const auto lateral = slope(initial, strain, [](const CurveRow& r) { return r.radial_strain; }))

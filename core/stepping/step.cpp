@@ -1,9 +1,10 @@
 #include "core/stepping/step.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/threads.hpp"
-#include "core/boundary/release.hpp"
+#include "core/boundary/loose_surface.hpp"
 #include "core/distributed/distribute.hpp"
 #include "core/distributed/gather.hpp"
 #include "core/distributed/halo.hpp"
@@ -130,9 +131,10 @@ void hold_ends(World& w) {
   push_back(w.end_walls, w.platens, w.particles, w.partition, w.step, w.dt, w.options.threads);
 }
 
-void release_unheld(World& w) {
+void let_loose_drift(World& w) {
   const Lap lap(w.phases, Phase::confinement);
-  release_unheld(w.confinement, w.particles, w.partition, w.step, w.dt);
+  const double impedance = std::sqrt(w.material.young_modulus * w.material.density);
+  let_loose_drift(w.confinement, w.particles, w.partition, {impedance, w.platens.rough, w.dt, w.step});
 }
 
 void account_energies(World& w) {
@@ -171,7 +173,7 @@ void advance(World& w) {
   hold_ends(w);
   restrain_laterally(w);
   move_platens(w);
-  release_unheld(w);
+  let_loose_drift(w);
   account_energies(w);
   integrate(w);
   start_halo_exchange(w);

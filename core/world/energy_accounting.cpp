@@ -164,10 +164,13 @@ void account_motion(World& w) {
   });
   ledger.walls.add(behind.over_this, behind.over_next);
   const Confinement& c = w.confinement;
-  if (c.rigid || c.rows.empty()) return;
-  const OuterWork lateral =
-      c.pressure == 0.0 ? OuterWork{} : work_of_listed(w, c.rows, [&](std::size_t k) { return c.force[k]; });
-  ledger.pressure.add(lateral.over_this, lateral.over_next);
+  if (c.rigid) return;
+  OuterWork fluid;
+  if (c.pressure != 0.0) {
+    fluid += work_of_listed(w, c.rows, [&](std::size_t k) { return c.force[k]; });
+    fluid += work_of_listed(w, c.flying, [&](std::size_t k) { return c.brake[k]; });
+  }
+  ledger.pressure.add(fluid.over_this, fluid.over_next);
 }
 
 EnergyBalance energy_balance(const World& w) {

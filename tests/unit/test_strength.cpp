@@ -200,6 +200,25 @@ std::vector<CurveRow> through(const std::vector<std::pair<double, double>>& corn
 
 }  // namespace
 
+TEST_CASE(
+    "strength: moduli of a curve that bends at a tenth of its peak are those below the bend [(B82), rel "
+    "1e-9]") {
+  // 30 GPa and -0.2 to 4 MPa, then 10 GPa and -0.4 to 40 MPa: a quarter of the peak is 10 MPa
+  std::vector<CurveRow> rows;
+  const double knee = 4e6 / 30e9, top = knee + 36e6 / 10e9;
+  for (int k = 0; k <= 2000; ++k) {
+    CurveRow r;
+    const double e = r.axial_strain = 1.2 * top * k / 2000;
+    r.axial_stress_Pa = e < knee ? 30e9 * e : e < top ? 4e6 + 10e9 * (e - knee) : 40e6 - 10e9 * (e - top);
+    r.radial_strain = e < knee ? -0.2 * e : -0.2 * knee - 0.4 * (e - knee);
+    r.stored_J = 10;
+    rows.push_back(r);
+  }
+  const auto f = read_curve(rows, std::vector<double>(rows.size(), 0.0));
+  CHECK(f.young_modulus.value() == doctest::Approx(30e9).epsilon(1e-9));
+  CHECK(f.poisson_ratio.value() == doctest::Approx(0.2).epsilon(1e-9));
+}
+
 TEST_CASE("strength: cycles: moduli down and up and the strain that stays - of straight pieces [rel 1e-9]") {
   // up to 40 MPa at 0.002; down at 25 GPa to 4 MPa; up at 24 GPa to 40 MPa; on to 44 MPa at 0.003;
   // again
