@@ -44,24 +44,28 @@ struct Holder {
   }
 };
 
-Holder holder_of(const Body& body, Support grip, double mean_radius) {
-  // (B61): strips of half-width 0.15 R, 2.5 mean radii deep: of the spheres that reach that near
-  // the lateral surface. With centres that near only, the strips crush their way in at
-  // 2.4 MPa where the disc would split at 2.8 (cement, 15,070 spheres)
+/// @param a  with its layer and its strips
+Holder holder_of(const Assembly& a, const Body& body) {
+  const Support grip = a.grip;
+  const double mean_radius = a.mean_radius;
+  // (B61): of the spheres that reach that near the lateral surface. With centres that near only,
+  // the strips crush their way in at 2.4 MPa where the disc would split at 2.8 (cement, 15,070
+  // spheres)
   if (grip == Support::strips)
-    return {grip, 0.5 * body.diameter - 2.5 * mean_radius, 0.075 * body.diameter, &body, mean_radius};
+    return {grip, 0.5 * body.diameter - a.layer, 0.5 * a.strip_width, &body, mean_radius};
   // a shear box leaves a band of five mean radii free
   return {grip, 0.5 * body.height - 1.5 * mean_radius, 2.5 * mean_radius, &body, mean_radius};
 }
 
 /// Free particles first, then the lower and the upper body; within each along a Hilbert curve.
 /// (B96)
-std::vector<std::size_t> order_of(const Specimen& specimen, const Holder& part_of) {
+/// @param all_free  nobody is held
+std::vector<std::size_t> order_of(const Specimen& specimen, const Holder& part_of, bool all_free) {
   std::vector<Vec3> centres;
   centres.reserve(specimen.spheres.size());
   for (const auto& s : specimen.spheres) centres.push_back(s.centre);
   const auto keys = hilbert_keys(centres);
-  const auto part = [&](std::size_t k) { return part_of(specimen.spheres[k]); };
+  const auto part = [&](std::size_t k) { return all_free ? free_part : part_of(specimen.spheres[k]); };
   std::vector<std::size_t> order(centres.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -190,31 +194,37 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
   a.rotation = rotation;
   const std::size_t n = specimen.spheres.size();
   for (const auto& s : specimen.spheres) a.mean_radius += s.radius / static_cast<double>(n);
-  a.layer = (rule.grip == Support::strips ? 2.5 : 1.5) * a.mean_radius;
-  const Holder part_of = holder_of(body, rule.grip, a.mean_radius);
+  a.layer = 1.5 * a.mean_radius;
+  if (rule.grip == Support::strips) {
+    a.planes = rule.strips.planes;
+    a.layer = rule.strips.depth.value_or(2.5 * a.mean_radius);
+    a.strip_width = rule.strips.width.value_or(0.15 * body.diameter);
+  }
+  const Holder part_of = holder_of(a, body);
 
   ParticleTable& p = a.particles;
   p.resize(n, features);
   std::vector<int> group(n);
-  const auto order = order_of(specimen, part_of);
+  const auto order = order_of(specimen, part_of, a.planes);
   for (std::size_t row = 0; row < n; ++row) {
     const SpecimenSphere& s = specimen.spheres[order[row]];
     p.gid[row] = s.id;
     p.radius[row] = s.radius;
     p.position[row] = p.reference_position[row] = s.centre;
     group[row] = s.group;
-    const Part part = part_of(s);
+    const Part part = a.planes ? free_part : part_of(s);
     if (part == free_part) p.free = row + 1;
     if (part != upper_part) a.first_top = row + 1;
     if (at_lateral_surface(body, a.space, s.centre, s.radius, a.mean_radius))
       a.lateral.push_back(static_cast<Row>(row));
   }
-  if (p.free == 0 || a.first_top == p.free || a.first_top == n)
+  if (a.planes) a.layer = 0.0;
+  if (!a.planes && (p.free == 0 || a.first_top == p.free || a.first_top == n))
     fail<BadInput>(
-        "{}: no sphere between or within the {} ({} mean radii) of a body {} m long; "
-        "check specimen.height, specimen.diameter and specimen.axis",
-        specimen.source, rule.grip == Support::strips ? "strips" : "end layers",
-        rule.grip == Support::strips ? 2.5 : 1.5, a.length());
+        "{}: no sphere between or within the {} ({:.3g} mean radii) of a body {} m long; "
+        "check specimen.height, specimen.diameter and specimen.axis{}",
+        specimen.source, rule.grip == Support::strips ? "strips" : "end layers", a.layer / a.mean_radius,
+        a.length(), rule.grip == Support::strips ? ", test.strip_width and test.strip_depth" : "");
 
   if (rule.grip == Support::halves && part_of.half_width >= part_of.edge)
     fail<BadInput>(

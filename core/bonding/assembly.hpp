@@ -12,6 +12,13 @@
 
 namespace breccia {
 
+/// The two strips that press a disc. (B61)
+struct Strips {
+  bool planes = false;          ///< rigid planes that touch the disc, instead of layers of held spheres
+  std::optional<double> width;  ///< m, across the load; nothing: 0.15 of the diameter
+  std::optional<double> depth;  ///< m, from the rim, to which held spheres reach; nothing: 2.5 mean radii
+};
+
 struct BondingRule {
   double range = 0.10;                 ///< beta: bonded where |x_j - x_i| <= (1 + beta)(r_i + r_j)
   std::optional<double> coordination;  ///< instead: beta such that particles have this many bonds on average
@@ -19,6 +26,7 @@ struct BondingRule {
   std::optional<AreaRule> strength_area;  ///< of the strengths, where it is another one
   Space space = Space::three_d;
   Support grip = Support::ends;
+  Strips strips{};
 };
 
 struct Assembly {
@@ -33,6 +41,8 @@ struct Assembly {
   std::vector<char> loose;    ///< per particle, 1 where it hangs on nothing; empty: not looked for
   double mean_radius = 0;     ///< m
   double layer = 0;           ///< m, thickness of the held layers or strips
+  double strip_width = 0;     ///< m, of the strips that press a disc
+  bool planes = false;        ///< planes press it, nothing is held
   double range = 0;           ///< beta that was used
   double coordination = 0;    ///< bonds per particle, both ends counted
   std::size_t dropped_bonds = 0;  ///< in range, but without an area (no common Voronoi face)

@@ -29,8 +29,14 @@ std::vector<RowPair> links_of(const BondTable& b) {
   return links;
 }
 
-/// Per piece, whether it has spheres in both bodies that the loading holds.
+/// Per piece, whether it has spheres in both bodies that the loading holds; between planes, which
+/// hold nothing, whether it is the largest.
 std::vector<char> reach_across(const Pieces& pieces, const Assembly& a) {
+  if (a.planes) {
+    std::vector<char> largest(pieces.sizes.size());
+    largest.front() = 1;
+    return largest;
+  }
   std::vector<char> lower(pieces.sizes.size()), upper(lower), both(lower);
   for (std::size_t row = a.particles.free; row < a.particles.size; ++row)
     (row < a.first_top ? lower : upper)[pieces.of[row]] = 1;

@@ -29,6 +29,7 @@ struct Pushes {
 /// m, by which a sphere reaches beyond a plane.
 double depth(const EndWalls& walls, const Platens& platens, const ParticleTable& p, std::size_t row,
              std::size_t end) {
+  if (walls.half_width > 0.0 && std::abs(p.position[row].x) > walls.half_width) return -p.radius[row];
   const double outward = end == 0 ? -1.0 : 1.0;
   const double plane = walls.place[end] + platens.travel[end].z;
   return outward * (p.position[row].z - plane) + p.radius[row];
@@ -57,12 +58,14 @@ void list_near(EndWalls& walls, const Platens& platens, const ParticleTable& p, 
 
 EndWalls make_end_walls(const Assembly& a, double young_modulus, double alpha) {
   EndWalls walls;
-  walls.enabled = a.grip == Support::ends && a.particles.free < a.particles.size;
+  walls.enabled = (a.grip == Support::ends && a.particles.free < a.particles.size) || a.planes;
+  if (a.planes) walls.half_width = 0.5 * a.strip_width;
   // (B111): as a bond of two equal spheres, pi r^2 alpha E/(2 r)
   walls.stiffness = 0.5 * std::numbers::pi * alpha * young_modulus;
   constexpr double far = std::numeric_limits<double>::infinity();
   walls.place = {far, -far};
   for (std::size_t row = 0; row < a.particles.size; ++row) {
+    if (a.planes && std::abs(a.particles.position[row].x) > walls.half_width) continue;
     const double z = a.particles.position[row].z, r = a.particles.radius[row];
     walls.place = {std::min(walls.place[0], z - r), std::max(walls.place[1], z + r)};
   }

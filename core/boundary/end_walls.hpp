@@ -1,6 +1,6 @@
 // A plane behind each end layer, so that no sphere slips through it: rough or smooth, a layer of
-// spheres has gaps, and under hundreds of MPa a loose sphere finds them. docs/model.md, "What is
-// held".
+// spheres has gaps, and under hundreds of MPa a loose sphere finds them. And planes as the strips
+// that press a disc. docs/model.md, "What is held".
 #pragma once
 #include <array>
 #include <cstdint>
@@ -15,6 +15,7 @@ namespace breccia {
 struct EndWalls {
   bool enabled = false;
   std::array<double, 2> place{};  ///< m, of the planes along z when the run began
+  double half_width = 0;          ///< m, along x, of a strip; 0: no end
   double stiffness = 0;           ///< Pa: force over radius and depth
   std::vector<Row> rows;          ///< free spheres that may touch before the list is made anew, rising
   std::vector<double> force;      ///< N, along z, of this step, beside them

@@ -99,7 +99,7 @@ CurveFindings findings(const LaboratoryTest& test, const LoadTest& load, const L
 /// (B85)
 void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunSummary& run) {
   run.tensile_strength_Pa = run.peak_stress_Pa;
-  constexpr double strip = 0.15;  // half-width over radius
+  const double strip = a.strip_width / a.body.diameter;  // half-width over radius
   if (run.peak_stress_Pa)
     run.strip_corrected_strength_Pa = *run.peak_stress_Pa * std::pow(1 - strip * strip, 1.5);
   run.first_drop_stress_Pa = stress_at_first_drop(result.record.rows, 0.05);

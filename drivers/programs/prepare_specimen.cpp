@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "core/base/error.hpp"
 #include "core/base/hold.hpp"
@@ -112,6 +114,13 @@ AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, 
   return f;
 }
 
+Strips strips_of(const Case& c) {
+  Strips strips{c.test.plane_strips, c.test.strip_width, c.test.strip_depth};
+  if (c.test.strip_angle)
+    strips.width = c.specimen.body.diameter * std::sin(*c.test.strip_angle * std::numbers::pi / 360.0);
+  return strips;
+}
+
 /// In tension surfaces part.
 bool has_contacts(const Case& c, const LaboratoryTest& test) {
   return c.features.new_contacts && test.loading != Loading::tension;
@@ -156,8 +165,8 @@ std::string describe_elasticity(const Case& c, const LaboratoryTest& test, const
 ReadySpecimen make_ready(const Case& c, const LaboratoryTest& test, const Features& asked, int threads,
                          Progress& progress) {
   const Features features = features_that_run(c, asked);
-  BondingRule rule{c.bonds.range,         c.bonds.coordination, c.bonds.area,
-                   c.bonds.strength_area, c.specimen.space,     Support::ends};
+  BondingRule rule{c.bonds.range,    c.bonds.coordination, c.bonds.area, c.bonds.strength_area,
+                   c.specimen.space, Support::ends,        strips_of(c)};
   ReadySpecimen ready;
   const Specimen specimen = make_specimen(c, threads, progress, ready.warnings);
   Body body = c.specimen.body;

@@ -52,6 +52,10 @@ struct TestCase {
   double unload_to = 0.1;
   std::optional<char> load_axis;  ///< bts: in the file
   SkinWeights skin_weights = SkinWeights::radius;
+  bool plane_strips = false;          ///< bts
+  std::optional<double> strip_width;  ///< m
+  std::optional<double> strip_angle;  ///< degrees, instead
+  std::optional<double> strip_depth;  ///< m
 };
 
 struct FeatureCase {  ///< what the scene may leave out

@@ -155,6 +155,22 @@ struct Checks : CaseLaid {
                        format_quantity(p, dimension::stress)));
   }
 
+  void strips() const {
+    if (!is_across()) return;
+    const double radius = 0.5 * c.specimen.body.diameter;
+    const auto length = [](double value) { return format_quantity(value, dimension::length); };
+    if (c.test.strip_width && *c.test.strip_width > 0.5 * c.specimen.body.diameter)
+      no("test.strip_width", fmt::format("{} is more than half the disc's diameter, {}; a strip is narrow",
+                                         length(*c.test.strip_width), length(2 * radius)));
+    if (c.test.strip_depth && c.test.plane_strips)
+      no("test.strip_depth", "planes hold no spheres; leave it out, or write test.strips = \"layers\"");
+    if (c.test.strip_depth && *c.test.strip_depth > 0.5 * radius)
+      no("test.strip_depth", fmt::format("{} is more than half the disc's radius, {}; a strip is thin",
+                                         length(*c.test.strip_depth), length(radius)));
+    if (c.test.plane_strips && c.test.rough_platens)
+      no("test.platens", "planes hold nothing sideways; write \"smooth\" or leave it out");
+  }
+
   /// A key that is given and that nothing reads; with its default it does no harm.
   void idle(std::string_view name, bool is_used, std::string_view because) const {
     const auto given = layer.find(name);
@@ -243,6 +259,7 @@ void check_ranges(const CaseLaid& laid) { Checks{laid}.narrower_ranges(); }
 void check_test(const CaseLaid& laid) {
   const Checks checks{laid};
   checks.loading();
+  checks.strips();
   checks.idle_keys();
 }
 

@@ -163,6 +163,10 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   refuse_foreign_keys(layers.set, law);
   for (const ConfinementLayer& group : layers.given_at) refuse_foreign_keys(group.layer, law);
   check_law(laid, base.at("material.law"));
+  if (const auto given = base.find("material.shear_under_yield");
+      given != base.end() && !given->second.place.empty() && !c.features.plasticity)
+    refuse(given->second.place, given->first,
+           "with features.plasticity = false nothing yields; leave it out");
   std::vector<ConfinementLayer> at;
   for (std::size_t k = 0; k < found.size(); ++k) {
     Layer& material = found[k].layer;

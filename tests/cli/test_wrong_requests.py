@@ -241,6 +241,29 @@ class Impossible(Case):
             with self.subTest(key=place):
                 self.refused("ucs", lines, place, word, "leave it out")
 
+    def test_strips_and_stage_1(self):
+        disc = UCS.replace('diameter = "50 mm"\nheight = "100 mm"', 'shape = "disc"\ndiameter = "50 mm"\nheight = "25 mm"').replace(
+            'file = "specimen.csv"', "pack.spheres = 200")
+        for lines, word in (('strip_width = "40 mm"', "test.strip_width: 40 mm is more than half"),
+                            ('strip_depth = "20 mm"', "test.strip_depth: 20 mm is more than half"),
+                            ('strips = "planes"\nstrip_depth = "2 mm"', "test.strip_depth: planes hold no spheres"),
+                            ('strips = "planes"\nplatens = "rough"', "test.platens: planes hold nothing sideways"),
+                            ('strip_width = "5 mm"\nstrip_angle = 10', "test.strip_"),
+                            ("strip_angle = 100", "test.strip_angle: must be above 0 to 90")):
+            self.refused("bts", disc.replace("stop_strain = 0.006", lines), word)
+        self.refused("ucs", test('strip_width = "5 mm"'), "test.strip_width: strips press a disc")
+        pressed = 'confinement = ["5 MPa"]\n'
+        self.refused("ucs", test('hydrostatic_branch = "law"'), "test.hydrostatic_branch: ")
+        self.refused("triaxial", test('hydrostatic_branch = "law"'), "test.hydrostatic_branch: without a confinement")
+        self.refused("triaxial", test(pressed + 'hydrostatic_branch = "law"') + "[features]\nplasticity = false\n",
+                     "test.hydrostatic_branch: with features.plasticity = false")
+        self.refused("triaxial", test(pressed + 'hydrostatic_branch = "elastic"').replace('preset = "concrete"', 'preset = "concrete-high-confinement"'),
+                     "test.hydrostatic_branch: law \"exponential\" has no limits")
+        self.refused("ucs", UCS.replace('preset = "concrete"', 'preset = "concrete"\nlaw = "kdem"\nshear_under_yield = "elastic"'),
+                     "material.shear_under_yield: law \"kdem\" has no shear_under_yield")
+        self.refused("ucs", UCS.replace('preset = "concrete"', 'preset = "concrete"\nshear_under_yield = "elastic"') + "[features]\nplasticity = false\n",
+                     "material.shear_under_yield: with features.plasticity = false nothing yields")
+
     def test_resolved_cases_stay_accepted(self):
         self.go("ucs", test('platen_speed = "0.4 m/s"\nstop_strain = 0.001'))
         shutil.copy(self.out / "case.toml", self.work / "again.toml")

@@ -182,3 +182,39 @@ TEST_CASE(
   CHECK(held < 700);
   CHECK(a.load_section() == doctest::Approx(std::numbers::pi * 0.025 * 0.025).epsilon(1e-14));
 }
+
+TEST_CASE(
+    "assembly: the strips of a disc are as wide and as deep as asked for, planes hold nobody [(B61), "
+    "exact]") {
+  const Body body{Shape::disc, 0.05, 0, 0.02, true};
+  Specimen s;
+  Gid id = 0;
+  for (int x = -12; x <= 12; ++x)
+    for (int z = -12; z <= 12; ++z)
+      if (std::hypot(x, z) <= 12) s.spheres.push_back({++id, {0.002 * x, 0, 0.002 * z}, 0.001, 1});
+  const auto held = [&](const Strips& strips) {
+    BondingRule rule;
+    rule.grip = Support::strips, rule.strips = strips;
+    return assemble(s, body, rule, Features{}, 1);
+  };
+  for (const auto& [width, depth] : {std::pair{0.009, 0.0025}, {0.0035, 0.0055}}) {
+    const Assembly a = held({false, width, depth});
+    CHECK(a.strip_width == width);
+    std::size_t wanted = 0;
+    for (const SpecimenSphere& sphere : s.spheres)
+      wanted += std::abs(sphere.centre.x) < 0.5 * width &&
+                std::hypot(sphere.centre.x, sphere.centre.z) + 0.001 > 0.025 - depth;
+    CHECK(a.particles.size - a.particles.free == wanted);
+    for (std::size_t row = a.particles.free; row < a.particles.size; ++row)
+      CHECK((row < a.first_top) == (a.particles.position[row].z < 0));
+  }
+  CHECK(held({}).strip_width == doctest::Approx(0.15 * 0.05));
+  CHECK(held({}).layer == doctest::Approx(2.5 * 0.001));
+  const Assembly planes = held({true, {}, {}});
+  CHECK(planes.particles.free == planes.particles.size);
+  BondingRule shallow;
+  shallow.grip = Support::strips, shallow.strips.depth = 1e-3;
+  const Body wider{Shape::disc, 0.06, 0, 0.02, true};  // no sphere reaches its rim
+  CHECK_THROWS_WITH_AS(assemble(s, wider, shallow, Features{}, 1), doctest::Contains("test.strip_depth"),
+                       BadInput);
+}
