@@ -16,7 +16,7 @@ enum class Elasticity { paper, matched };
 enum class Space { three_d, two_d };
 
 /// Where the area of a bond comes from: docs/model.md, "Area".
-enum class AreaRule { minimum, harmonic, polyhedron, voronoi };
+enum class AreaRule { minimum, harmonic, cone, polyhedron, voronoi };
 
 /// How forces of bonds whose ends are shared between threads are summed.
 enum class ScatterKind { atomic, private_sums, gather };

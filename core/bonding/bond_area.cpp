@@ -30,6 +30,14 @@ double section(double r, Space space) { return space == Space::three_d ? pi * r 
 
 double equivalent(double r_i, double r_j) { return 2.0 * r_i * r_j / (r_i + r_j); }  // (S4.31)
 
+/// (S4.28): the radius of the cylinder that is as stiff as a truncated cone from one sphere to the
+/// other, A = pi r_i r_j; in two dimensions a wedge, 2 (r_j - r_i)/ln(r_j/r_i).
+double cone_radius(double r_i, double r_j, Space space) {
+  if (space == Space::three_d) return std::sqrt(r_i * r_j);
+  const double x = (r_j - r_i) / r_i;
+  return std::abs(x) < 1e-6 ? 0.5 * (r_i + r_j) : (r_j - r_i) / std::log1p(x);
+}
+
 template <class Radius>
 std::vector<double> pair_areas(const ParticleTable& p, const BondTable& b, Space space,
                                const Radius& radius) {
@@ -123,6 +131,9 @@ std::vector<double> bond_areas(AreaRule rule, const ParticleTable& particles, co
       break;
     case AreaRule::harmonic:
       return pair_areas(particles, bonds, space, equivalent);
+    case AreaRule::cone:
+      return pair_areas(particles, bonds, space,
+                        [&](double a, double b) { return cone_radius(a, b, space); });
     case AreaRule::polyhedron:
       return polyhedron_areas(particles, bonds, lateral, space);
     case AreaRule::voronoi:

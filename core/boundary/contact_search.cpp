@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/base/error.hpp"
 #include "core/base/threads.hpp"
 #include "core/elastic/touching.hpp"
 #include "core/geometry/cell_list.hpp"
@@ -36,6 +37,20 @@ struct EvenStretch {
     return *this;
   }
 };
+
+/// Lists at a fixed distance: what may have met before this one was missed.
+void check_interval(NeighbourList& s, double used, std::uint64_t step) {
+  const std::uint64_t since = step + static_cast<std::uint64_t>(s.every) - s.next_search;
+  if (used > s.slack && since > 0)
+    fail<SimulationBroke>(
+        "run.search_every = {} is too long for spheres that move as fast as these: {} steps after the last "
+        "search they have approached by up to {:.3g} mm, and pairs apart by more than {:.3g} mm were not "
+        "listed; "
+        "take at most {}, or leave it out",
+        s.every, since, 1e3 * used, 1e3 * s.slack,
+        std::max<std::uint64_t>(
+            1, static_cast<std::uint64_t>(0.5 * static_cast<double>(since) * s.slack / used)));
+}
 
 }  // namespace
 
@@ -72,7 +87,9 @@ NeighbourList make_neighbour_list(const Assembly& a, bool enabled, double skin) 
 bool rebuild_is_due(NeighbourList& s, const ParticleTable& p, const Partition& partition, std::uint64_t step,
                     double dt, int threads) {
   if (!s.enabled || step < s.next_check) return false;
-  s.next_check = step + static_cast<std::uint64_t>(s.check_every);
+  s.next_check =
+      step + static_cast<std::uint64_t>(s.every > 0 ? std::min(s.every, s.check_every) : s.check_every);
+  if (s.every > 0 && s.next_search > step) s.next_check = std::min(s.next_check, s.next_search);
 
   std::vector<EvenStretch> sums;  // along the axis: least squares of u_z over z
   const EvenStretch even = sum_particles(partition, threads, sums, [&](std::size_t row) {
@@ -87,6 +104,10 @@ bool rebuild_is_due(NeighbourList& s, const ParticleTable& p, const Partition& p
     return Moved{dot(u, u), dot(p.velocity[row], p.velocity[row])};
   });
   const double used = 2.0 * std::sqrt(most.distance2) + std::abs(stretch) * s.reach;
+  if (s.every > 0) {
+    check_interval(s, used, step);
+    return step >= s.next_search;
+  }
   // what they may still move before the next check counts as used
   const double per_step = 2.0 * 1.5 * dt * std::sqrt(most.speed2), ahead = s.check_every * per_step;
   // slack <= 0: pairs that overlap unbonded are in contact from the start
@@ -104,6 +125,7 @@ void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const Part
   s.awake = true;
   s.slack = s.skin;
   ++s.rebuilds;
+  s.next_search += static_cast<std::uint64_t>(s.every);
   s.position = p.position.copy();
   std::vector<RowPair> pairs = near_pairs(p.position, p.radius, 0.0, s.skin, threads);
   std::erase_if(pairs, [&](const RowPair& pair) { return are_bonded(s, pair.a, pair.b); });

@@ -17,8 +17,10 @@ struct NeighbourList {
   double slack = 0;     ///< m, what pairs may approach before the list must be renewed
   double reach = 0;     ///< m, largest distance that a candidate pair can have
   // (B97)
-  int check_every = 16;          ///< steps
-  std::uint64_t next_check = 0;  ///< step
+  int check_every = 16;           ///< steps
+  int every = 0;                  ///< steps from list to list; 0: when the skin is used up
+  std::uint64_t next_check = 0;   ///< step
+  std::uint64_t next_search = 0;  ///< step, where lists are made every so many
   std::uint64_t rebuilds = 0;
   Column<Vec3> position;             ///< m, of the particles when the list was made
   std::vector<Index> first_partner;  ///< per particle: rows bonded to it, rising
@@ -28,8 +30,10 @@ struct NeighbourList {
 /// @param skin  m
 NeighbourList make_neighbour_list(const Assembly& assembly, bool enabled, double skin);
 
-/// True when surfaces without a bond may have come within reach since the list was made.
-/// Every rank comes to the same answer.
+/// True when surfaces without a bond may have come within reach since the list was made. Every rank
+/// comes to the same answer.
+/// @throws SimulationBroke where lists are made every so many steps, and spheres have met between
+/// two
 bool rebuild_is_due(NeighbourList& search, const ParticleTable& particles, const Partition& partition,
                     std::uint64_t step, double dt, int threads);
 

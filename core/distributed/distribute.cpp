@@ -72,6 +72,7 @@ void broadcast_contacts(World& w) {
   w.step_monitor.looks = step.looks;
   w.neighbour_list.slack = step.slack;
   w.neighbour_list.rebuilds = step.rebuilds;
+  w.neighbour_list.next_search += static_cast<std::uint64_t>(w.neighbour_list.every);
   w.neighbour_list.awake = true;
   w.neighbour_list.position = w.particles.position.copy();
   const PairsOfRank contacts = pairs_of_rank(w.partition, listed);

@@ -57,6 +57,8 @@ struct RunSummary {
   std::uint64_t short_bonds = 0;
   std::uint64_t broken_tension = 0;
   std::uint64_t broken_shear = 0;
+  std::optional<double> localisation;  ///< share of the volume that holds 90 % of the equivalent strain
+  std::uint64_t contact_searches = 0;  ///< lists of contacts that were made
   std::uint64_t steps = 0;
   double time_step_s = 0;         ///< at the start
   double lowest_time_step_s = 0;  ///< the run's last: a step is never raised again

@@ -30,6 +30,7 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("search_slack", w.neighbour_list.slack);
   visit("search_next_check", w.neighbour_list.next_check);
   visit("search_rebuilds", w.neighbour_list.rebuilds);
+  visit("search_next", w.neighbour_list.next_search);
 
   visit("step_room", w.step_monitor.margin);
   visit("step_counted", w.step_monitor.counted);

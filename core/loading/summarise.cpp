@@ -8,6 +8,7 @@
 #include "core/loading/strength.hpp"
 #include "core/tables/state_hash.hpp"
 #include "core/world/energies.hpp"
+#include "core/world/strain.hpp"
 
 namespace breccia {
 
@@ -243,6 +244,8 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
   const BrokenCount broken = count_broken(w);
   run.broken_tension = broken.tension;
   run.broken_shear = broken.shear;
+  run.localisation = localisation(w);
+  run.contact_searches = w.neighbour_list.rebuilds;
   run.steps = w.step;
   run.time_step_s = w.step_monitor.first_dt;
   run.lowest_time_step_s = w.dt;

@@ -31,6 +31,9 @@ namespace breccia {
   COLUMN(double, spring_force,    "N",     ledger,    ledger,          "of the law along a damaged bond at the end of the step, tension positive") \
   COLUMN(double, viscous_force,   "N",     ledger,    ledger,          "of the dashpot along the bond, as it was applied") \
   COLUMN(double, shear_factor,    "1",     ledger,    ledger,          "of a damaged bond, tangential force over the history of shear")  \
+  COLUMN(double, normal_force,    "N",     derived,   stress,          "of the law along the bond, tension positive")  \
+  COLUMN(double, normal_stress,   "Pa",    derived,   stress,          "the same over the area")                      \
+  COLUMN(double, shear_stress,    "Pa",    derived,   stress,          "magnitude of the tangential force over the area") \
   COLUMN(double, failure_state,   "1",     derived,   stress,          "max(F_s/S, u_e/u_nf), 1 = broken (S5.21)")
 // clang-format on
 

@@ -17,7 +17,9 @@ namespace breccia {
   COLUMN(double, mass,               "kg",     reference, always,   "density times volume, and more where masses are scaled")  \
   COLUMN(Vec3,   reference_position, "m",      reference, always,   "centre when the bonds were made")                \
   COLUMN(Vec3,   stress_normal,      "Pa",     derived,   stress,   "xx, yy, zz of the mean stress in the particle's share of the volume, tension positive") \
-  COLUMN(Vec3,   stress_shear,       "Pa",     derived,   stress,   "yz, zx, xy of the same")
+  COLUMN(Vec3,   stress_shear,       "Pa",     derived,   stress,   "yz, zx, xy of the same")                          \
+  COLUMN(Vec3,   strain_normal,      "1",      derived,   stress,   "xx, yy, zz of the strain of the particle's neighbourhood, elongation positive") \
+  COLUMN(Vec3,   strain_shear,       "1",      derived,   stress,   "yz, zx, xy of the same, half the change of the angle")
 
 /// Those that lie in the records of ParticleRecords.
 #define BRECCIA_PARTICLE_FIELDS(COLUMN)                                                                               \

@@ -17,11 +17,11 @@ struct Braked {
   Vec3 after;        ///< velocity half a step after the force
 };
 
-/// @param by_mass  dt/m, or dt/I
-Braked braked(const Vec3& force, const Vec3& velocity, double alpha, double by_mass) {
-  const double speed2 = dot(velocity, velocity);
-  const double brake = speed2 > 0.0 ? alpha * std::sqrt(dot(force, force) / speed2) : 0.0;
-  return {brake, velocity + by_mass * (force - brake * velocity)};
+/// @param part     of the global damping
+/// @param inertia  kg, kg m^2
+Braked braked(const World& w, const Vec3& force, const Vec3& velocity, double part, double inertia) {
+  const double brake = brake_on(velocity, force, part, w.options.global_damping.viscous, inertia);
+  return {brake, velocity + (w.dt / inertia) * (force - brake * velocity)};
 }
 
 Braked braked_motion(const World& w, std::size_t row) {
@@ -29,7 +29,7 @@ Braked braked_motion(const World& w, std::size_t row) {
   Vec3 force = p.force[row], velocity = p.velocity[row];
   const bool held = row >= p.free;
   if (held) force.z = velocity.z = 0.0;  // a smooth platen leaves two directions free
-  Braked b = braked(force, velocity, w.options.global_damping.translation, w.dt / p.mass[row]);
+  Braked b = braked(w, force, velocity, w.options.global_damping.translation, p.mass[row]);
   if (!held) return b;
   const Vec3& platen = w.platens.velocity[row >= w.first_top];
   if (w.platens.rough) return {0.0, platen};
@@ -73,7 +73,7 @@ StepWork work_on_held(const World& w, std::size_t row) {
   if (p.spin.empty() || !w.options.features.rotation) return s;
   const Vec3& spin = p.spin[row];
   const double i = inertia(inertia_factor(w), m, p.radius[row]);
-  const Braked turn = braked(p.torque[row], spin, w.options.global_damping.rotation, w.dt / i);
+  const Braked turn = braked(w, p.torque[row], spin, w.options.global_damping.rotation, i);
   s.kinetic += 0.5 * i * dot(spin, turn.after);
   s.spin_this = half * turn.brake * dot(spin, spin), s.spin_next = half * turn.brake * dot(spin, turn.after);
   return s;

@@ -85,6 +85,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.confinement = make_confinement(assembly, options.skin_weights, options.rigid_sides);
   // (B97)
   w.neighbour_list = make_neighbour_list(assembly, options.new_contacts, 0.2 * assembly.mean_radius);
+  w.neighbour_list.every = options.search_every;
   w.cracks = make_crack_record(options.cracks && w.features.breakage, options.threads, w.bonds.size);
   plan_bonds(w);
   w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set, kind);

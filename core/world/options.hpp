@@ -12,6 +12,7 @@ namespace breccia {
 struct WorldOptions {
   Features features;  ///< that the scene asks for
   bool new_contacts = true;
+  int search_every = 0;  ///< steps between searches for contacts; 0: when the skin is used up
   bool rough_platens = true;
   bool rigid_sides = false;  ///< the lateral surface cannot move sideways
   SkinWeights skin_weights = SkinWeights::radius;

@@ -19,7 +19,7 @@ StepScene step_scene(const World& w) {
           .contacts = w.contacts,
           .dashpots = w.dashpots,
           .shear_ratio = w.shear_ratio,
-          .global_damping = std::max(global.translation, global.rotation),
+          .global_damping = global.viscous ? 0.0 : std::max(global.translation, global.rotation),
           .reach = w.neighbour_list.skin,
           .freedom = {w.options.features.rotation, w.space == Space::two_d, inertia_factor(w)},
           .threads = w.options.threads};
@@ -91,6 +91,11 @@ void choose_step(World& w) {
   sum_loads(w.dashpots, w.particles, w.bonds);
   w.critical_dt = critical_time_step(step_scene(w));
   if (!(std::isfinite(w.critical_dt) && w.critical_dt > 0.0)) refuse_step(w);
+  if (o.global_damping.viscous) {
+    // (B113): (w dt/2)^2 = 1 - c dt/2 instead of 1
+    const double a = 0.25 * w.critical_dt * w.critical_dt * o.global_damping.translation;
+    w.critical_dt = std::sqrt(a * a + w.critical_dt * w.critical_dt) - a;
+  }
   w.dt = w.step_monitor.first_dt = o.safety * w.critical_dt;  // (P11)
   set_bond_dashpots(w);
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/world/strain.hpp"
 #include "kernels/loops/bond_energy.hpp"
 
 namespace breccia {
@@ -94,6 +95,34 @@ double held_pressure(const World& w) {
   return c.acting * held / pressed;
 }
 
+namespace {
+
+void fill_bond_columns(World& w) {
+  const ParticleTable& p = w.particles;
+  BondTable& b = w.bonds;
+  for (Column<double>* column : {&b.normal_force, &b.normal_stress, &b.shear_stress})
+    column->assign(b.padded, 0.0);
+  const bool breaks = !b.damage_normal.empty();
+  if (breaks) b.failure_state.assign(b.padded, 0.0);
+  const bool coupled = w.features.criterion == Criterion::coupled;
+  std::visit(
+      [&](const auto& law) {
+        for (std::size_t k = 0; k < b.size; ++k) {
+          const double distance = norm(p.position[b.row_hi[k]] - p.position[b.row_lo[k]]);
+          const BondConstants<double> bond = constants_of_bond(b, k);
+          const BondHistory<double> h = history_of_bond(b, k);
+          const BondForce<double> f = force_of_state(law, bond, h, distance, coupled);
+          b.normal_force[k] = f.normal;
+          b.normal_stress[k] = f.normal / bond.area;
+          b.shear_stress[k] = norm(f.shear) / bond.area;
+          if (breaks) b.failure_state[k] = failure_state(law, bond, h, distance, coupled);
+        }
+      },
+      w.law);
+}
+
+}  // namespace
+
 void fill_stress_columns(World& w) {
   ParticleTable& p = w.particles;
   const auto share = [&](std::size_t row) {
@@ -117,18 +146,14 @@ void fill_stress_columns(World& w) {
     p.stress_normal[row] = by_volume * stress[row].normal;
     p.stress_shear[row] = by_volume * stress[row].shear;
   }
-  BondTable& b = w.bonds;
-  if (b.damage_normal.empty()) return;
-  b.failure_state.assign(b.padded, 0.0);
-  const bool coupled = w.features.criterion == Criterion::coupled;
-  std::visit(
-      [&](const auto& law) {
-        for (std::size_t k = 0; k < b.size; ++k)
-          b.failure_state[k] =
-              failure_state(law, constants_of_bond(b, k), history_of_bond(b, k),
-                            norm(p.position[b.row_hi[k]] - p.position[b.row_lo[k]]), coupled);
-      },
-      w.law);
+  const std::vector<Strain> strain = strains(w);
+  p.strain_normal.assign(p.padded, {});
+  p.strain_shear.assign(p.padded, {});
+  for (std::size_t row = 0; row < p.size; ++row) {
+    p.strain_normal[row] = strain[row].normal;
+    p.strain_shear[row] = strain[row].shear;
+  }
+  fill_bond_columns(w);
 }
 
 }  // namespace breccia

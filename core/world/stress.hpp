@@ -23,7 +23,8 @@ double held_pressure(const World& world);
 
 /// (B89): fills the columns stress_normal and stress_shear of the particles, with F (x) arm over a
 /// particle's bonds and contacts and, for its volume, its share of the specimen's by r^3 (r^2 of
-/// discs), and failure_state of the bonds. Of several ranks, for the rows that this one owns.
+/// discs); its strain (S5.20); and force, stresses and failure_state of the bonds. Of several
+/// ranks, for the rows that this one owns.
 void fill_stress_columns(World& world);
 
 }  // namespace breccia

@@ -38,6 +38,7 @@ WorldOptions world_options(const Case& c, const LaboratoryTest& test, const Feat
   WorldOptions o;
   o.features = asked;
   o.new_contacts = c.features.new_contacts;
+  o.search_every = c.search_every.value_or(0);
   o.rough_platens = test.always_rough || c.test.rough_platens;
   o.rigid_sides = test.rigid_sides;
   o.skin_weights = c.test.skin_weights;
@@ -46,6 +47,7 @@ WorldOptions world_options(const Case& c, const LaboratoryTest& test, const Feat
   o.paper_form = c.damping.paper_form;
   o.damping_scheme = c.damping.scheme;
   o.global_damping = {c.damping.translation, c.damping.rotation};
+  if (const auto rate = c.damping.viscous_rate) o.global_damping = {*rate, *rate, true};
   o.safety = c.safety;
   if (c.mass_scaling) o.mass_factor = c.mass_factor;
   o.scatter = c.scatter;

@@ -39,6 +39,7 @@ struct DampingCase {
   bool paper_form = false;  ///< form = "paper": times pi alpha r_c/d0
   DampingScheme scheme = DampingScheme::explicit_;
   double translation = 0.1, rotation = 0.1;
+  std::optional<double> viscous_rate;  ///< 1/s, instead of both
 };
 
 struct TestCase {
@@ -86,7 +87,8 @@ struct Case {
   double mass_factor = 1.5;  ///< of the total mass, where masses are scaled
   ScatterKind scatter = ScatterKind::private_sums;
   Precision precision = Precision::full;
-  double checkpoint_every = 300;  ///< s, wall time
+  std::optional<int> search_every;  ///< steps
+  double checkpoint_every = 300;    ///< s, wall time
   int frames = 20;
   bool stress = false, cracks = true;  ///< output
   std::string resolved;                ///< the whole case as TOML, every default written out

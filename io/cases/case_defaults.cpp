@@ -26,8 +26,8 @@ bool takes_standard(const Key& key, const Layer& layer, std::string_view program
     return false;
   if (!accepts(key, program) || (takes_specimen_only(program) && !key.name.starts_with("specimen.")))
     return false;
-  const Key* other = rival(key);
-  if (other && layer.contains(other->name)) return false;
+  for (const Key* other : rivals(key))
+    if (layer.contains(other->name)) return false;
   if (!is_pack(key.name)) return true;
   if (key.name == "specimen.pack.porosity" && layer.contains("specimen.pack.genesis_pressure")) return false;
   if (key.name == "specimen.pack.sizes.spread") {

@@ -191,6 +191,9 @@ struct Checks : CaseLaid {
     idle("damping.form", c.damping.contact > 0, "with damping.contact = 0 there is no dashpot");
     idle("damping.scheme", c.damping.contact > 0, "with damping.contact = 0 there is no dashpot");
     idle("damping.rotation", c.features.rotation, "with features.rotation = false nothing spins");
+    idle("damping.rotation", !c.damping.viscous_rate, "damping.viscous_rate brakes spins too");
+    idle("run.search_every", c.features.new_contacts,
+         "with features.new_contacts = false nothing is searched for");
     idle("output.stress", c.frames > 0, "with output.frames = 0 there is no picture to hold it");
     const auto presses = [](double p) { return p > 0; };
     const bool pressed = std::any_of(c.test.confinement.begin(), c.test.confinement.end(), presses);

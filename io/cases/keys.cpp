@@ -54,6 +54,7 @@ ScatterKind scatter_of(std::string_view word) {
 AreaRule area_of(std::string_view word) {
   using enum AreaRule;
   return word == "harmonic"     ? harmonic
+         : word == "cone"       ? cone
          : word == "polyhedron" ? polyhedron
          : word == "voronoi"    ? voronoi
                                 : minimum;
@@ -267,6 +268,22 @@ constexpr std::array keys{
         .instead_of = "material.damage_shear",
         .meaning = "G_II, instead of damage_shear",
         .store_material = [](M& m, const R& r) { m.fracture_energy_shear = r.number; }},
+    Key{.name = "material.failure_strain_normal",
+        .range = more_than(0),
+        .instead_of = "material.damage_normal",
+        .meaning = "eps_f, strain at which tension has softened to nothing, instead of damage_normal",
+        .store_material = [](M& m, const R& r) { m.failure_strain_normal = r.number; }},
+    Key{.name = "material.failure_strain_shear",
+        .range = more_than(0),
+        .instead_of = "material.damage_shear",
+        .meaning = "gamma_f, the same of shear, instead of damage_shear",
+        .store_material = [](M& m, const R& r) { m.failure_strain_shear = r.number; }},
+    Key{.name = "material.shear_residual",
+        .kind = Kind::word,
+        .default_text = "friction",
+        .words = "friction zero",
+        .meaning = "what shear softens to before Coulomb friction takes over",
+        .store_material = [](M& m, const R& r) { m.softens_to_zero = r.word == "zero"; }},
     Key{.name = "material.law",
         .kind = Kind::word,
         .default_text = "dempack",
@@ -325,13 +342,14 @@ constexpr std::array keys{
     Key{.name = "bonds.area",
         .kind = Kind::word,
         .default_text = "minimum",
-        .words = "minimum harmonic polyhedron voronoi",
-        .meaning = "pi min(r)^2, pi (harmonic mean)^2, share of a virtual polyhedron, Voronoi face",
+        .words = "minimum harmonic cone polyhedron voronoi",
+        .meaning =
+            "pi min(r)^2, pi (harmonic mean)^2, pi r_i r_j, share of a virtual polyhedron, Voronoi face",
         .store = [](C& c, const R& r) { c.bonds.area = area_of(r.word); }},
     Key{.name = "bonds.strength_area",
         .kind = Kind::word,
         .default_text = "same",
-        .words = "same minimum harmonic polyhedron voronoi",
+        .words = "same minimum harmonic cone polyhedron voronoi",
         .meaning = "that strengths stand on; same: alpha times the area; others as they are",
         .store =
             [](C& c, const R& r) {
@@ -363,6 +381,12 @@ constexpr std::array keys{
         .range = from_to_below(0, 1),
         .meaning = "non-viscous, fraction of the force",
         .store = [](C& c, const R& r) { c.damping.translation = r.number; }},
+    Key{.name = "damping.viscous_rate",
+        .dimension = Dimension{0, 0, -1},
+        .range = at_least(0),
+        .instead_of = "damping.translation",
+        .meaning = "viscous global damping: what a momentum loses of itself, instead of fractions of forces",
+        .store = [](C& c, const R& r) { c.damping.viscous_rate = r.number; }},
     Key{.name = "damping.rotation",
         .default_text = "0.1",
         .range = from_to_below(0, 1),
@@ -521,6 +545,11 @@ constexpr std::array keys{
         .meaning = "mixed: parameters and history of the bonds as floats in the loop",
         .store = [](C& c,
                     const R& r) { c.precision = r.word == "mixed" ? Precision::mixed : Precision::full; }},
+    Key{.name = "run.search_every",
+        .kind = Kind::whole_number,
+        .range = {1, 1e9, false, false},
+        .meaning = "steps between two searches for contacts; if not given, whenever the skin is used up",
+        .store = [](C& c, const R& r) { c.search_every = static_cast<int>(r.whole); }},
     Key{.name = "run.checkpoint_every",
         .dimension = dimension::time,
         .default_text = "5 min",

@@ -129,10 +129,12 @@ struct Walker {
   void check_rivals(const Layer& layer) const {
     for (const Key& key : all_keys()) {
       if (key.instead_of.empty()) continue;
-      const auto one = layer.find(key.name), other = layer.find(key.instead_of);
-      if (one != layer.end() && other != layer.end())
-        refuse(one->second.place, shown(one->first),
-               fmt::format("excludes {}; give one of the two", shown(other->first)));
+      for (const Key* rival : rivals(key)) {
+        const auto one = layer.find(key.name), other = layer.find(rival->name);
+        if (one != layer.end() && other != layer.end())
+          refuse(one->second.place, shown(one->first),
+                 fmt::format("excludes {}; give one of the two", shown(other->first)));
+      }
     }
     const auto file = layer.find("specimen.file"), packed = layer.lower_bound(pack);
     if (file != layer.end() && packed != layer.end() && packed->first.starts_with(pack))
@@ -184,8 +186,9 @@ void erase_below(Layer& layer, std::string_view prefix) {
 void lay_over(Layer& low, const Layer& high) {
   for (const auto& [name, given] : high) {
     const Key* key = find_key(name);
-    if (const Key* other = key ? rival(*key) : nullptr; other && !high.contains(other->name))
-      if (const auto hidden = low.find(other->name); hidden != low.end()) low.erase(hidden);
+    if (key)
+      for (const Key* other : rivals(*key))
+        if (!high.contains(other->name)) low.erase(std::string(other->name));
     if (name == "specimen.file" || name.starts_with(pack)) low.erase("specimen.sha256");
     if (name == "specimen.file") erase_below(low, pack);
     if (name.starts_with(pack)) low.erase("specimen.file");

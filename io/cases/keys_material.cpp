@@ -133,7 +133,10 @@ Material make_material(const Layer& layer, const FeatureCase& features, Elastici
   const LawFacts& law = facts_of(law_of(layer));
   const auto need = [&](const char* name, const char* otherwise = nullptr, const char* unless = nullptr) {
     const std::string full = std::string("material.") + name;
-    if (layer.contains(full) || (otherwise && layer.contains(std::string("material.") + otherwise))) return;
+    if (layer.contains(full)) return;
+    if (const Key* key = find_key(full))
+      for (const Key* other : rivals(*key))
+        if (layer.contains(other->name)) return;
     const std::string or_else = otherwise ? fmt::format(" (or {})", otherwise) : "";
     const std::string or_off = unless ? fmt::format(", or set features.{} = false", unless) : "";
     refuse(file, full + or_else, fmt::format("missing; give it, or a material.preset{}", or_off));

@@ -12,11 +12,12 @@ const Key* find_key(std::string_view name) {
   return at == all_keys().end() ? nullptr : &*at;
 }
 
-const Key* rival(const Key& key) {
-  if (!key.instead_of.empty()) return find_key(key.instead_of);
-  const auto at = std::find_if(all_keys().begin(), all_keys().end(),
-                               [&](const Key& k) { return k.instead_of == key.name; });
-  return at == all_keys().end() ? nullptr : &*at;
+std::vector<const Key*> rivals(const Key& key) {
+  const std::string_view first = key.instead_of.empty() ? key.name : key.instead_of;
+  std::vector<const Key*> others;
+  for (const Key& k : all_keys())
+    if ((k.name == first || k.instead_of == first) && k.name != key.name) others.push_back(&k);
+  return others;
 }
 
 std::vector<std::string> split_words(std::string_view words) {

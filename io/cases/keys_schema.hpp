@@ -69,8 +69,8 @@ std::span<const Key> all_keys();
 const Key* find_key(std::string_view name);
 /// Names of the keys that the test accepts; of one table only if `table` is not empty.
 std::vector<std::string> key_names(std::string_view test, std::string_view table = {});
-/// The key that excludes this one (fracture energy or damage, range or coordination), or nullptr.
-const Key* rival(const Key&);
+/// The keys that exclude this one (fracture energy or damage, range or coordination).
+std::vector<const Key*> rivals(const Key&);
 
 /// Whether a program is none of the laboratory tests: breccia-pack, which takes a specimen alone.
 bool takes_specimen_only(std::string_view program);

@@ -22,12 +22,13 @@ Layer between(const Node& low, const Node& high, double part) {
   Layer result = low.layer;
   for (const auto& [name, given] : high.layer) {
     const Key& key = *find_key(name);
-    if (const Key* other = rival(key); other && !low.layer.contains(name) && low.layer.contains(other->name))
-      refuse(
-          given.place, name,
-          fmt::format("stands at {}, and {} at {}: nothing lies between the two; give the same one at both",
-                      format_quantity(high.confinement, dimension::stress), other->name,
-                      format_quantity(low.confinement, dimension::stress)));
+    for (const Key* other : rivals(key))
+      if (!low.layer.contains(name) && low.layer.contains(other->name))
+        refuse(
+            given.place, name,
+            fmt::format("stands at {}, and {} at {}: nothing lies between the two; give the same one at both",
+                        format_quantity(high.confinement, dimension::stress), other->name,
+                        format_quantity(low.confinement, dimension::stress)));
     const auto below = result.find(name);
     if (below == result.end()) {
       result[name] = given;
@@ -131,7 +132,7 @@ MaterialAt material_at(const MaterialLayers& m, double confinement) {
     found.warning = fmt::format(
         "the material's table ends at {}, below this confinement: its last values are used", pressure(low));
   for (const Key* key : varying)
-    if (found.layer.contains(key->name) && !nodes[at.low].layer.contains(key->name) && rival(*key) == nullptr)
+    if (found.layer.contains(key->name) && !nodes[at.low].layer.contains(key->name) && rivals(*key).empty())
       found.warning = fmt::format("the material's table has no {} below {}: its first values are used",
                                   key->name.substr(std::string_view("material.").size()), pressure(high));
   return found;

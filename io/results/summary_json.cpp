@@ -49,6 +49,8 @@ void for_each_field(Run& run, Visit&& visit) {
   visit("short_bonds", run.short_bonds);
   visit("broken_tension", run.broken_tension);
   visit("broken_shear", run.broken_shear);
+  visit("localisation", run.localisation);
+  visit("contact_searches", run.contact_searches);
   visit("steps", run.steps);
   visit("time_step_s", run.time_step_s);
   visit("lowest_time_step_s", run.lowest_time_step_s);

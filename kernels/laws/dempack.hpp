@@ -13,7 +13,8 @@ struct DempackLaw {
   static constexpr std::string_view name = "dempack";
   static constexpr std::string_view takes =
       "friction_static friction_dynamic tensile_strength shear_strength limit_compressive_stress "
-      "stiffness_reduction damage_normal damage_shear fracture_energy_normal fracture_energy_shear criterion "
+      "stiffness_reduction damage_normal damage_shear fracture_energy_normal fracture_energy_shear "
+      "failure_strain_normal failure_strain_shear shear_residual criterion "
       "limits shear_under_yield";
   static constexpr std::array<LawParameter, 0> own{};
   static constexpr std::array<LawDefault, 0> defaults{};

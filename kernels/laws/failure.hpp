@@ -21,6 +21,7 @@ struct Failure {
   /// {-1, 2 E G/strength^2} for a given fracture energy (B18)
   double softening_normal = 0, softening_normal_length = 0;  ///< 1, m
   double softening_shear = 0, softening_shear_length = 0;    ///< 1, m
+  double takeover = 1;  ///< friction takes over where shear has softened to this part of it: 1, or 0 (B21)
 };
 
 /// Limits of a bond whose strengths are stresses. (P42)
@@ -37,6 +38,7 @@ inline Failure failure_of(const Material& m, double young, double shear_ratio) {
   f.friction_pressed = m.friction_static;
   f.friction_pulled = m.criterion == Criterion::mohr_coulomb ? m.friction_static : 0.0;  // (B23)
   f.friction_dynamic = m.friction_dynamic;
+  f.takeover = m.softens_to_zero ? 0.0 : 1.0;
   // (B18): delta = 2 E G_I/(sigma_t^2 L) - 1 and 2 k_s G_II/(tau_f^2 A) - 1, k_s = kappa E A/L
   f.softening_normal = m.damage_normal;
   if (m.fracture_energy_normal) {
@@ -44,7 +46,12 @@ inline Failure failure_of(const Material& m, double young, double shear_ratio) {
     f.softening_normal_length =
         2.0 * young * *m.fracture_energy_normal / (m.tensile_strength * m.tensile_strength);
   }
+  // (P48): the strain at the strength is sigma_t/E; in shear tau_f/(kappa E)
+  if (m.failure_strain_normal)
+    f.softening_normal = larger(0.0, *m.failure_strain_normal * young / m.tensile_strength - 1.0);
   f.softening_shear = m.damage_shear;
+  if (m.failure_strain_shear)
+    f.softening_shear = larger(0.0, *m.failure_strain_shear * shear_ratio * young / m.shear_strength - 1.0);
   if (m.fracture_energy_shear) {
     f.softening_shear = -1.0;
     f.softening_shear_length =
@@ -160,7 +167,8 @@ inline BondForce<R> breakable_force(const Failure& failure, double young, const 
       const R trial = square_root(trial2);
       const auto grows = beyond && trial > strength * (one + delta * h.damage_shear);  // (B21)
       const R damage = larger(h.damage_shear, damage_at(trial / strength, delta));
-      const auto fails = grows && (damage >= one || (one - damage) * strength <= friction);
+      const auto fails =
+          grows && (damage >= one || (one - damage) * strength <= R(failure.takeover) * friction);
       // the force that a failing bond hands over to friction is the one it carried before this
       // step's damage
       h.shear = select(fails, g_shear * h.shear, h.shear);  // (B21)

@@ -33,6 +33,10 @@ struct Material {
   double damage_shear = 0;   ///< delta_s
   std::optional<double> fracture_energy_normal;  ///< J/m^2, G_I: instead of damage_normal
   std::optional<double> fracture_energy_shear;   ///< J/m^2, G_II: instead of damage_shear
+  std::optional<double> failure_strain_normal;   ///< eps_f, where tension has softened to nothing (P48)
+  std::optional<double> failure_strain_shear;    ///< gamma_f, the same of shear
+  bool softens_to_zero =
+      false;  ///< shear softens to nothing before friction takes over (P46), not to the friction
   std::string law = "dempack";
   Criterion criterion = Criterion::uncoupled;
   ShearUnderYield shear_under_yield = ShearUnderYield::tangent;

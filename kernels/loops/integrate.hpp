@@ -10,9 +10,11 @@
 
 namespace breccia {
 
-/// Fractions of the force (torque) that always oppose the velocity (spin).
+/// What opposes every velocity and spin: fractions of the force and of the torque (P39) (P40), or,
+/// viscous, rates in 1/s of the momentum (B113).
 struct GlobalDamping {
   double translation = 0, rotation = 0;
+  bool viscous = false;
 };
 
 /// F - alpha |F| v/|v|; F where v is zero. (P39) (P40)
@@ -20,6 +22,15 @@ inline Vec3 damped(const Vec3& force, const Vec3& velocity, double alpha) {
   const double speed2 = dot(velocity, velocity);
   if (!(speed2 > 0.0)) return force;
   return force - (alpha * std::sqrt(dot(force, force) / speed2)) * velocity;
+}
+
+/// The brake on a velocity (or spin): the force (torque) that opposes it, over it.
+/// @param part     fraction of the force, or rate in 1/s where viscous
+/// @param inertia  kg, kg m^2
+inline double brake_on(const Vec3& velocity, const Vec3& force, double part, bool viscous, double inertia) {
+  if (viscous) return part * inertia;  // (B113)
+  const double speed2 = dot(velocity, velocity);
+  return speed2 > 0.0 ? part * std::sqrt(dot(force, force) / speed2) : 0.0;  // (P39) (P40)
 }
 
 struct Motion {

@@ -26,7 +26,7 @@ struct Kicked {
   Two inertia;  ///< kg, kg m^2
 };
 
-template <bool spins>
+template <bool spins, bool viscous>
 [[gnu::always_inline]] inline Kicked kicked(const Motion& m, std::size_t row, double dt,
                                             const GlobalDamping& damping) {
   Kicked k;
@@ -34,12 +34,16 @@ template <bool spins>
   const Four force = four(m.force[row]), torque = spins ? four(m.torque[row]) : rest;
   k.velocity = four(m.velocity[row]), k.spin = spins ? four(m.spin[row]) : rest;
   k.speeds = products(k.velocity, k.velocity, k.spin, k.spin);
-  const Two moves = k.speeds > Two{} ? square_roots(products(force, force, torque, torque) / k.speeds)
-                                     : Two{};  // 0/0 where at rest
-  // (P39) (P40)
-  k.held = Two{damping.translation, damping.rotation} * moves;
   const double mass = m.mass[row];
   k.inertia = Two{mass, spins ? m.inertia_factor * mass * m.radius[row] * m.radius[row] : mass};
+  if constexpr (viscous) {
+    k.held = Two{damping.translation, damping.rotation} * k.inertia;  // (B113)
+  } else {
+    const Two moves = k.speeds > Two{} ? square_roots(products(force, force, torque, torque) / k.speeds)
+                                       : Two{};  // 0/0 where at rest
+    // (P39) (P40)
+    k.held = Two{damping.translation, damping.rotation} * moves;
+  }
   const Two kick = Two{dt, dt} / k.inertia;
   k.new_velocity = k.velocity + kick[0] * (force - k.held[0] * k.velocity);  // (P1) (P6)
   // (P2) (P9)
@@ -47,11 +51,11 @@ template <bool spins>
   return k;
 }
 
-template <bool spins>
+template <bool spins, bool viscous>
 void kick_and_drift(const Motion& m, std::size_t first, std::size_t last, double dt,
                     const GlobalDamping& damping) {
   for (std::size_t row = first; row < last; ++row) {
-    const Kicked k = kicked<spins>(m, row, dt, damping);
+    const Kicked k = kicked<spins, viscous>(m, row, dt, damping);
     four(m.velocity[row]) = k.new_velocity;
     four(m.position[row]) += dt * k.new_velocity;  // (P7)
     four(m.force[row]) = Four{};
@@ -62,12 +66,12 @@ void kick_and_drift(const Motion& m, std::size_t first, std::size_t last, double
   }
 }
 
-template <bool spins>
+template <bool spins, bool viscous>
 MotionWork work_of_kicks(const Motion& m, std::size_t first, std::size_t last, double dt,
                          const GlobalDamping& damping) {
   Two twice_kinetic{}, held_this{}, held_next{};
   for (std::size_t row = first; row < last; ++row) {
-    const Kicked k = kicked<spins>(m, row, dt, damping);
+    const Kicked k = kicked<spins, viscous>(m, row, dt, damping);
     const Two across = products(k.velocity, k.new_velocity, k.spin, k.new_spin);
     twice_kinetic += k.inertia * across;  // (B48)
     // (B56)
@@ -84,17 +88,22 @@ MotionWork work_of_kicks(const Motion& m, std::size_t first, std::size_t last, d
 void integrate_free(const Motion& m, std::size_t first, std::size_t last, double dt,
                     const GlobalDamping& damping) {
   if (!m.spin.empty() && m.spins) {
-    kick_and_drift<true>(m, first, last, dt, damping);
+    damping.viscous ? kick_and_drift<true, true>(m, first, last, dt, damping)
+                    : kick_and_drift<true, false>(m, first, last, dt, damping);
     return;
   }
-  kick_and_drift<false>(m, first, last, dt, damping);
+  damping.viscous ? kick_and_drift<false, true>(m, first, last, dt, damping)
+                  : kick_and_drift<false, false>(m, first, last, dt, damping);
   for (std::size_t row = first; row < last && !m.torque.empty(); ++row) four(m.torque[row]) = Four{};
 }
 
 MotionWork work_of_free(const Motion& m, std::size_t first, std::size_t last, double dt,
                         const GlobalDamping& damping) {
-  return !m.spin.empty() && m.spins ? work_of_kicks<true>(m, first, last, dt, damping)
-                                    : work_of_kicks<false>(m, first, last, dt, damping);
+  if (!m.spin.empty() && m.spins)
+    return damping.viscous ? work_of_kicks<true, true>(m, first, last, dt, damping)
+                           : work_of_kicks<true, false>(m, first, last, dt, damping);
+  return damping.viscous ? work_of_kicks<false, true>(m, first, last, dt, damping)
+                         : work_of_kicks<false, false>(m, first, last, dt, damping);
 }
 
 }  // namespace breccia::BRECCIA_ISA

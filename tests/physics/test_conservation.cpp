@@ -5,6 +5,7 @@
 
 #include "core/stepping/step.hpp"
 #include "core/world/energies.hpp"
+#include "core/world/energy_accounting.hpp"
 #include "core/world/loop_views.hpp"
 #include "core/world/make_world.hpp"
 #include "tests/scene.hpp"
@@ -277,4 +278,34 @@ TEST_CASE(
   const Vec3 d = damped(F, v, 0.3);
   CHECK(norm(d - (F - 0.3 * 13 / 3 * v)) < 1e-14 * 13);
   CHECK(dot(F - d, v) == doctest::Approx(0.3 * 13 * 3).epsilon(1e-14));
+}
+
+TEST_CASE(
+    "viscous global damping: a mass on a spring decays as exp(-c t/2), turning and moving [(B113), 1e-3; "
+    "ledger 1e-6]") {
+  reference::Parameters p;
+  p.contact_damping = false;
+  p.xi = 0;
+  Assembly a = scene::free_body({{1, 0.01, {0, 0, -0.01}}, {2, 0.01, {0, 0, 0.01}}}, p.beta,
+                                scene::options(p).features);
+  WorldOptions o = scene::options(p);
+  constexpr double rate = 4000;
+  o.global_damping = {rate, rate, true};
+  o.ledger = true, o.safety = 0.05;
+  World w = make_world(a, scene::material_of(p), scene::factor(p), o);
+  w.particles.velocity[0].z = -1e-3, w.particles.velocity[1].z = 1e-3;
+  w.particles.spin[0].z = w.particles.spin[1].z = 5.0;  // about the bond, both alike: nothing but the damping
+  const double k = w.bonds.stiffness[0], m = w.particles.mass[0];
+  const double omega = std::sqrt(2 * k / m - 0.25 * rate * rate), period = 2 * std::numbers::pi / omega;
+  double most = 0;
+  const double end = 10 * period;
+  while (w.time < end) {
+    if (w.time > end - 1.05 * period) most = std::max(most, w.particles.position[1].z - 0.01);
+    advance(w);
+  }
+  CHECK(most == doctest::Approx(1e-3 / omega * std::exp(-0.5 * rate * (end - 0.75 * period))).epsilon(2e-2));
+  CHECK(w.particles.spin[0].z == doctest::Approx(5.0 * std::exp(-rate * w.time)).epsilon(1e-3));
+  record_balance(w.ledger, energy_balance(w));
+  CHECK(energy_error(w.ledger) < 1e-6);
+  CHECK(w.ledger.damped_motion.done > 0);
 }

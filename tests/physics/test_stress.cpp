@@ -5,6 +5,7 @@
 #include "core/stepping/step.hpp"
 #include "core/world/energies.hpp"
 #include "core/world/make_world.hpp"
+#include "core/world/strain.hpp"
 #include "core/world/stress.hpp"
 #include "kernels/loops/bond_energy.hpp"
 #include "tests/scene.hpp"
@@ -227,4 +228,39 @@ TEST_CASE(
   // uniaxial strain: nu/(1 - nu) of the affine network, nu = (1 - kappa)/(4 + kappa)
   const double kappa = w.shear_ratio, nu = (1 - kappa) / (4 + kappa);
   CHECK(0.5 * (s.normal.x + s.normal.y) / s.normal.z == doctest::Approx(nu / (1 - nu)).epsilon(0.08));
+}
+
+TEST_CASE(
+    "strain: a linear displacement has its gradient at every particle, a band its share of the volume "
+    "[(S5.20) 1e-12, (B114)]") {
+  const reference::Parameters p;
+  WorldOptions o = scene::options(p);
+  const Assembly a = assemble(scene::small_packing(500), scene::small_cylinder(), {}, o.features, 1);
+  World w = make_world(a, scene::material_of(p), scene::factor(p), o);
+  ParticleTable& t = w.particles;
+  for (std::size_t k = 0; k < t.size; ++k) {
+    const Vec3& x = t.reference_position[k];
+    t.position[k] = x + Vec3{2e-3 * x.x + 4e-3 * x.y, 1e-3 * x.z, -5e-3 * x.z + 3e-3 * x.x};
+  }
+  std::size_t measured = 0;
+  for (const Strain& e : strains(w)) {
+    if (e.normal == Vec3{}) continue;  // two bonds span no space
+    ++measured;
+    CHECK(norm(e.normal - Vec3{2e-3, 0, -5e-3}) < 1e-14);
+    CHECK(norm(e.shear - Vec3{0.5e-3, 1.5e-3, 2e-3}) < 1e-14);
+  }
+  CHECK(measured > 450);
+  CHECK(localisation(w) == doctest::Approx(0.9).epsilon(0.01));
+  // all of it sheared off in a band of 15 mm of 100: and the neighbourhoods that reach into it
+  for (std::size_t k = 0; k < t.size; ++k) {
+    const Vec3& x = t.reference_position[k];
+    t.position[k] = x + Vec3{1e-3 * std::clamp(x.z / 0.015, -0.5, 0.5), 0, 0};
+  }
+  CHECK(localisation(w) > 0.12);
+  CHECK(localisation(w) < 0.3);
+  fill_stress_columns(w);
+  CHECK(w.bonds.normal_force.size() == w.bonds.padded);
+  for (std::size_t k = 0; k < w.bonds.size; ++k)
+    CHECK(w.bonds.normal_stress[k] * w.bonds.area[k] ==
+          doctest::Approx(w.bonds.normal_force[k]).epsilon(1e-12));
 }

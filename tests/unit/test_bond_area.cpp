@@ -169,6 +169,7 @@ TEST_CASE("bond area: two spheres by the four rules [(P21) (S4.32) rel 1e-14]") 
   REQUIRE(a.bonds.size == 1);
   CHECK(areas(AreaRule::minimum, a)[0] == Approx(pi * 4e-6).epsilon(1e-14));
   CHECK(areas(AreaRule::harmonic, a)[0] == Approx(pi * 2.4e-3 * 2.4e-3).epsilon(1e-14));
+  CHECK(areas(AreaRule::cone, a)[0] == Approx(pi * 2e-3 * 3e-3).epsilon(1e-14));  // (S4.28)
   // one neighbour counts as four: 6 sqrt(3)/pi of each sphere's surface; mean of the two ends
   const double tetrahedron = 6 * std::sqrt(3.0) / pi;
   CHECK(areas(AreaRule::polyhedron, a)[0] == Approx(tetrahedron * 4 * pi * (4e-6 + 9e-6) / 2).epsilon(1e-14));
@@ -176,6 +177,8 @@ TEST_CASE("bond area: two spheres by the four rules [(P21) (S4.32) rel 1e-14]") 
 
   CHECK(areas(AreaRule::minimum, a, Space::two_d)[0] == Approx(0.004).epsilon(1e-14));
   CHECK(areas(AreaRule::harmonic, a, Space::two_d)[0] == Approx(0.0048).epsilon(1e-14));
+  // a wedge from 4 to 6 mm: the integral of dx/h(x) over its length
+  CHECK(areas(AreaRule::cone, a, Space::two_d)[0] == Approx(0.002 / std::log(1.5)).epsilon(1e-14));
   const double triangle = 3 * std::sqrt(3.0) / pi;
   CHECK(areas(AreaRule::polyhedron, a, Space::two_d)[0] == Approx(triangle * 2 * pi * 2.5e-3).epsilon(1e-14));
   CHECK(areas(AreaRule::voronoi, a, Space::two_d)[0] == Approx(0.01).epsilon(1e-12));

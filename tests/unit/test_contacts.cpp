@@ -217,3 +217,32 @@ TEST_CASE("contacts: switched off, nothing is ever searched for [exact]") {
   CHECK(w.neighbour_list.rebuilds == 0);
   CHECK(w.particles.velocity[0] == Vec3{1, 0, 0});
 }
+
+TEST_CASE("contacts: lists every N steps, and refused where spheres may have met in between [exact]") {
+  reference::Parameters p;
+  WorldOptions o = scene::options(p);
+  const auto world = [&](int every, double speed) {
+    o.search_every = every;
+    World w = make_world(scene::free_body({{1, 0.01, {0, 0, 0}, 0, {speed, 0, 0}},
+                                           {2, 0.01, {0.03, 0, 0}, 0},
+                                           {3, 0.01, {0.2, 0, 0}},
+                                           {4, 0.01, {0.22, 0, 0}}},
+                                          p.beta, o.features),
+                         scene::material_of(p), scene::factor(p), o);
+    w.dt = 1e-6;
+    return w;
+  };
+  // 10 mm apart: they meet in either run, and part with the same speeds
+  World by_skin = world(0, 20), every_ten = world(10, 20);
+  for (int step = 0; step < 1000; ++step) advance(by_skin), advance(every_ten);
+  CHECK(every_ten.neighbour_list.rebuilds == 100);
+  CHECK(by_skin.neighbour_list.rebuilds < 50);
+  CHECK(by_skin.particles.velocity[1].x > 1);
+  for (std::size_t k = 0; k < 4; ++k)
+    CHECK(norm(by_skin.particles.velocity[k] - every_ten.particles.velocity[k]) < 1e-9);
+  World too_long = world(700, 20);
+  const auto run = [&] {
+    for (int step = 0; step < 700; ++step) advance(too_long);
+  };
+  CHECK_THROWS_WITH_AS(run(), doctest::Contains("run.search_every = 700 is too long"), SimulationBroke);
+}

@@ -671,6 +671,54 @@ TEST_CASE(
   hold_random<Features{.plasticity = false, .breakage = false}>(Parameters{}, 17);
 }
 
+TEST_CASE(
+    "dempack/failure strains: tension and shear have softened to nothing there [(P48), closed form, 1e-12]") {
+  Material m = scene::material_of(Parameters{});
+  m.failure_strain_normal = 4e-4, m.failure_strain_shear = 3e-3;
+  const DempackLaw law = DempackLaw::of(m, 0.4);
+  const Bond b = several_bonds(Parameters{})[1];
+  BondConstants<double> c = constants_of_bond(b);
+  const double L = strain_length(law.young, c), k_s = 0.4 * c.stiffness;
+  const double u_l = 5e6 / 28e9 * L, s_l = 16e6 / (0.4 * 28e9) * L;
+  const auto at = [&](double u, double y) {
+    return scene::follow<uncoupled, double>(law, {c}, {{{u, y}}})[0].back();
+  };
+  for (const double part : {0.3, 0.7, 0.999}) {
+    const double u = u_l + part * (4e-4 * L - u_l), y = s_l + part * (3e-3 * L - s_l);
+    CHECK(at(u, 0).force.x == doctest::Approx(5e6 * c.area * (1 - part)).epsilon(1e-9));
+    CHECK(at(0, y).force.y == doctest::Approx(16e6 * c.area * (1 - part)).epsilon(1e-9));
+  }
+  CHECK(at(1.0001 * 4e-4 * L, 0).history.damage_normal == 1);
+  CHECK(at(0, 1.0001 * 3e-3 * L).history.damage_shear == 1);
+  CHECK(k_s * s_l == doctest::Approx(16e6 * c.area).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "dempack/shear residual: to friction, or to nothing before friction begins anew [(P46), closed form, "
+    "1e-9]") {
+  for (const bool zero : {false, true}) {
+    Parameters p;
+    p.delta_s = 1.0;
+    Material m = scene::material_of(p);
+    m.softens_to_zero = zero;
+    const DempackLaw law = DempackLaw::of(m, scene::shear_ratio(p));
+    const Bond b = several_bonds(p)[0];
+    const double N = 10e6 * b.area, u = -N / b.k_n, S = p.tau_f * b.area + p.mu1 * N, R = p.mu2 * N,
+                 y_l = S / b.k_s;
+    const auto path = along({{u, 0}, {u, 4 * y_l}}, 4000);
+    const auto out = scene::follow<uncoupled, double>(law, {constants_of_bond(b)}, {path})[0];
+    double least = S;
+    for (std::size_t k = 4000; k < path.size(); ++k) {
+      const double y = path[k].y, branch = y < y_l ? b.k_s * y : S * (2 - y / y_l);
+      if (y > y_l) least = std::min(least, out[k].force.y);
+      if (y < 2 * y_l - 1e-9 && (zero || branch > R))
+        CHECK(out[k].force.y == doctest::Approx(branch).epsilon(1e-6).scale(S));
+    }
+    CHECK(least == doctest::Approx(zero ? 0.0 : R).epsilon(2e-3).scale(S));
+    CHECK(out.back().force.y == doctest::Approx(R).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("dempack/energy: one bond dissipates the area under its branch, O(du^2) [(B53)]") {
   const Parameters p = tough();
   const Bond b = several_bonds(p)[1];
