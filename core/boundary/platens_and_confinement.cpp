@@ -82,6 +82,7 @@ Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid)
   c.plane = a.space == Space::two_d;
   c.rows = a.lateral;
   c.surface = a.lateral_surface();
+  c.height = a.length();
   c.force.resize(c.rows.size());
   c.drifts.assign(c.rows.size(), 0);
   if (weights == SkinWeights::voronoi) {
@@ -144,13 +145,13 @@ void press_sides(Confinement& c, ParticleTable& particles, const Partition& part
   std::vector<SideSums> blocks;
   const SideSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
-    const double side = x.x < 0.0 ? 1.0 : -1.0, push = c.pressure * c.weight[k];
+    const double side = x.x < 0.0 ? 1.0 : -1.0, push = c.pressure * c.grown * c.weight[k];
     c.force[k] = {side * push, 0.0, 0.0};
     return SideSums{1.0, x.z, x.z * x.z, c.force[k].x, x.z * c.force[k].x, push, side, side * x.z};
   });
   const double det = s.n * s.z2 - s.z1 * s.z1;
   const double a = (s.net * s.z2 - s.tilt * s.z1) / det, b = (s.n * s.tilt - s.z1 * s.net) / det;
-  c.acting = (s.inward - a * s.side - b * s.side_z) / c.surface;
+  c.acting = (s.inward - a * s.side - b * s.side_z) / (c.grown * c.surface);
   for_owned_entries(partition, c.rows, [&](std::size_t k) {
     c.force[k].x -= a + b * particles.position[c.rows[k]].z;
     particles.force[c.rows[k]] += c.force[k];
@@ -172,6 +173,29 @@ struct SkinSums {
 
 }  // namespace
 
+namespace {
+
+struct Widening {
+  double now = 0, before = 0;
+  Widening& operator+=(const Widening& o) {
+    now += o.now, before += o.before;
+    return *this;
+  }
+};
+
+}  // namespace
+
+void measure_surface(Confinement& c, const ParticleTable& p, const Partition& partition,
+                     const Platens& platens) {
+  std::vector<Widening> blocks;
+  const Widening wide = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
+    const Vec3 &x = p.position[c.rows[k]], &x0 = p.reference_position[c.rows[k]];
+    return Widening{x.x * x0.x + x.y * x0.y, x0.x * x0.x + x0.y * x0.y};
+  });
+  const double height = 1.0 - approach(platens) / c.height;
+  c.grown = height * (c.plane || !(wide.before > 0.0) ? 1.0 : wide.now / wide.before);  // (B115)
+}
+
 void apply_confinement(Confinement& c, ParticleTable& particles, const Partition& partition) {
   if (c.rigid) return;
   c.acting = 0.0;
@@ -183,7 +207,7 @@ void apply_confinement(Confinement& c, ParticleTable& particles, const Partition
   const SkinSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     const double radial = x.x * x.x + x.y * x.y;
-    const double push = radial > 0.0 ? c.pressure * c.weight[k] : 0.0;
+    const double push = radial > 0.0 ? c.pressure * c.grown * c.weight[k] : 0.0;
     const double away = radial > 0.0 ? std::sqrt(radial) : 1.0, inward = -push / away;
     const Vec3& f = c.force[k] = {inward * x.x, inward * x.y, 0.0};
     const double out_x = x.x / away, out_y = x.y / away;
@@ -200,7 +224,8 @@ void apply_confinement(Confinement& c, ParticleTable& particles, const Partition
   // clang-format on
   const Eigen::Vector<double, 5> left{s.net_x, s.net_y, s.tilt_x, s.tilt_y, 0.0};
   const Eigen::Vector<double, 5> by = gram.ldlt().solve(left);
-  c.acting = (s.inward + by[0] * s.out_x + by[1] * s.out_y + by[2] * s.out_xz + by[3] * s.out_yz) / c.surface;
+  c.acting = (s.inward + by[0] * s.out_x + by[1] * s.out_y + by[2] * s.out_xz + by[3] * s.out_yz) /
+             (c.grown * c.surface);
   for_owned_entries(partition, c.rows, [&](std::size_t k) {
     const Vec3& x = particles.position[c.rows[k]];
     c.force[k] -= Vec3{by[0] + by[2] * x.z - by[4] * x.y, by[1] + by[3] * x.z + by[4] * x.x, 0.0};

@@ -55,6 +55,9 @@ struct Confinement {
   double pressure = 0;  ///< Pa, asked for now; of a rigid wall the mean reaction
   double acting = 0;    ///< Pa, inward forces of this step over the nominal surface; of a rigid wall the same
   double surface = 0;   ///< m^2, nominal
+  bool current = false;  ///< pressure acts on the surface as it is now
+  double grown = 1;      ///< of the surface, by what it has become larger; 1 where it does not count
+  double height = 0;     ///< m, of the specimen when it was made
   std::vector<Row> rows;
   std::vector<double> weight;  ///< m^2
   std::vector<Vec3> force;     ///< N, of this step
@@ -73,6 +76,11 @@ double lateral_cover(const Assembly& assembly);
 
 /// True where a lateral direction has no meaning for the whole surface: all of it lies on the axis.
 bool is_one_sphere_wide(const Assembly& assembly);
+
+/// What the lateral surface has become: its height by the platens' travel, its width by the least
+/// squares of its spheres' places (B115).
+void measure_surface(Confinement& confinement, const ParticleTable& particles, const Partition& partition,
+                     const Platens& platens);
 
 /// Adds the pressure forces; their net force and moment are removed by a least-squares correction.
 /// A sphere on the axis has no lateral direction and gets no force.

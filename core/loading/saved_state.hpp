@@ -25,6 +25,7 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("platens_force", w.platens.force);
   visit("platens_work", w.platens.work);
   visit("confinement_pressure", w.confinement.pressure);
+  visit("confinement_grown", w.confinement.grown);
 
   visit("search_awake", w.neighbour_list.awake);
   visit("search_slack", w.neighbour_list.slack);

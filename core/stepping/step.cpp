@@ -13,6 +13,7 @@
 #include "core/world/scatter_plans.hpp"
 #include "core/world/stable_step.hpp"
 #include "kernels/loops/contact_pass.hpp"
+#include "kernels/math/rotation.hpp"
 
 namespace breccia {
 namespace {
@@ -41,6 +42,9 @@ void search_if_due(World& w) {
 
 void confine(World& w) {
   const Lap lap(w.phases, Phase::confinement);
+  constexpr std::uint64_t measured_every = 16;  // steps
+  if (w.confinement.current && w.step % measured_every == 0)
+    measure_surface(w.confinement, w.particles, w.partition, w.platens);
   apply_confinement(w.confinement, w.particles, w.partition);
 }
 
@@ -162,6 +166,18 @@ void integrate(World& w) {
   integrate_held(motion, upper.first, upper.last, w.dt, damping, {w.platens.velocity[1], !w.platens.rough});
 }
 
+/// How particles have turned, where somebody wants to know.
+void turn(World& w) {
+  ParticleTable& p = w.particles;
+  if (p.orientation.empty()) return;
+  const Lap lap(w.phases, Phase::integrate);
+  const Rows mine = w.partition.owned();
+  for_rows(mine.last - mine.first, w.options.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t row = mine.first + first; row < mine.first + last; ++row)
+      p.orientation[row] = followed_by(p.orientation[row], w.dt * p.spin[row]);
+  });
+}
+
 }  // namespace
 
 void advance(World& w) {
@@ -176,6 +192,7 @@ void advance(World& w) {
   let_loose_drift(w);
   account_energies(w);
   integrate(w);
+  turn(w);
   start_halo_exchange(w);
   w.time += w.dt;
   ++w.step;

@@ -19,7 +19,17 @@ using Row = std::uint32_t;  ///< row of a table on this rank
 enum class Role { identity, reference, history, state, ledger, derived, scratch };
 
 /// The feature of the scene without which a column has no storage.
-enum class Need { always, rotation, contact_damping, plasticity, breakage, strength_area, ledger, stress };
+enum class Need {
+  always,
+  rotation,
+  contact_damping,
+  plasticity,
+  breakage,
+  strength_area,
+  ledger,
+  stress,
+  orientation
+};
 
 struct ColumnInfo {
   std::string_view type, name, unit;

@@ -16,6 +16,7 @@ namespace breccia {
   COLUMN(double, radius,             "m",      reference, always,   "radius of the sphere")                           \
   COLUMN(double, mass,               "kg",     reference, always,   "density times volume, and more where masses are scaled")  \
   COLUMN(Vec3,   reference_position, "m",      reference, always,   "centre when the bonds were made")                \
+  COLUMN(Vec3,   orientation,        "rad",    state,     orientation, "rotation since the start: along the axis, as long as the angle") \
   COLUMN(Vec3,   stress_normal,      "Pa",     derived,   stress,   "xx, yy, zz of the mean stress in the particle's share of the volume, tension positive") \
   COLUMN(Vec3,   stress_shear,       "Pa",     derived,   stress,   "yz, zx, xy of the same")                          \
   COLUMN(Vec3,   strain_normal,      "1",      derived,   stress,   "xx, yy, zz of the strain of the particle's neighbourhood, elongation positive") \

@@ -26,6 +26,7 @@ constexpr bool is_needed(Need need, const Features& features) {
     case Need::strength_area:
     case Need::ledger:
     case Need::stress:
+    case Need::orientation:
       return false;  // made by the one who fills it
   }
   return true;

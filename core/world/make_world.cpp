@@ -92,6 +92,8 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.integrate_free = integrate_free_for(options.instruction_set);
   w.work_of_free = work_of_free_for(options.instruction_set);
   w.undamaged_energy = undamaged_energy_for(options.instruction_set);
+  w.confinement.current = options.current_surface;
+  if (options.orientation) w.particles.orientation.assign(w.particles.padded, {});
   if (options.ledger) {
     for (Column<double>* column : {&w.bonds.spring_force, &w.bonds.viscous_force, &w.bonds.shear_factor})
       column->assign(w.bonds.padded, 0.0);

@@ -16,7 +16,9 @@ struct WorldOptions {
   bool rough_platens = true;
   bool rigid_sides = false;  ///< the lateral surface cannot move sideways
   SkinWeights skin_weights = SkinWeights::radius;
+  bool current_surface = false;  ///< pressure acts on the lateral surface as it is, not as it was
   bool cracks = true;            ///< keep a record of broken bonds
+  bool orientation = false;      ///< keep how particles have turned
   double contact_damping = 0.9;  ///< xi
   bool paper_form = false;       ///< damping times pi alpha r_c/d0 (P30)
   DampingScheme damping_scheme = DampingScheme::explicit_;

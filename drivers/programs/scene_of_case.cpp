@@ -42,7 +42,9 @@ WorldOptions world_options(const Case& c, const LaboratoryTest& test, const Feat
   o.rough_platens = test.always_rough || c.test.rough_platens;
   o.rigid_sides = test.rigid_sides;
   o.skin_weights = c.test.skin_weights;
+  o.current_surface = c.test.current_surface;
   o.cracks = c.cracks;
+  o.orientation = c.orientation;
   o.contact_damping = c.damping.contact;
   o.paper_form = c.damping.paper_form;
   o.damping_scheme = c.damping.scheme;

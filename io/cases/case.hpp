@@ -53,6 +53,7 @@ struct TestCase {
   double unload_to = 0.1;
   std::optional<char> load_axis;  ///< bts: in the file
   SkinWeights skin_weights = SkinWeights::radius;
+  bool current_surface = false;       ///< pressure acts on the lateral surface as it is
   bool plane_strips = false;          ///< bts
   std::optional<double> strip_width;  ///< m
   std::optional<double> strip_angle;  ///< degrees, instead
@@ -90,8 +91,8 @@ struct Case {
   std::optional<int> search_every;  ///< steps
   double checkpoint_every = 300;    ///< s, wall time
   int frames = 20;
-  bool stress = false, cracks = true;  ///< output
-  std::string resolved;                ///< the whole case as TOML, every default written out
+  bool stress = false, cracks = true, orientation = false;  ///< output
+  std::string resolved;  ///< the whole case as TOML, every default written out
   std::map<std::string, std::string, std::less<>> places;  ///< "file:line" of each key that is given
   std::vector<std::string> unusual;  ///< lines: defaults that another law, test, dimension or recipe has not
 };

@@ -185,6 +185,8 @@ struct Checks : CaseLaid {
 
   /// A request that cannot happen, because what it belongs to is not there.
   void idle_keys() const {
+    const auto presses = [](double p) { return p > 0; };
+    const bool pressed = std::any_of(c.test.confinement.begin(), c.test.confinement.end(), presses);
     idle("test.unload_to", !c.test.unload_at.empty(), "without test.unload_at nothing is unloaded");
     idle("test.load_axis", c.specimen.space != Space::two_d, "in 2-D a disc is pressed along specimen.axis");
     idle("time.mass_factor", c.mass_scaling, "without time.mass_scaling = true no sphere is made heavier");
@@ -194,9 +196,10 @@ struct Checks : CaseLaid {
     idle("damping.rotation", !c.damping.viscous_rate, "damping.viscous_rate brakes spins too");
     idle("run.search_every", c.features.new_contacts,
          "with features.new_contacts = false nothing is searched for");
+    idle("output.orientation", c.frames > 0, "with output.frames = 0 there is no picture to hold it");
+    idle("output.orientation", c.features.rotation, "with features.rotation = false nothing spins");
+    idle("test.surface", pressed, "without a confinement nothing presses on the lateral surface");
     idle("output.stress", c.frames > 0, "with output.frames = 0 there is no picture to hold it");
-    const auto presses = [](double p) { return p > 0; };
-    const bool pressed = std::any_of(c.test.confinement.begin(), c.test.confinement.end(), presses);
     idle("test.hydrostatic_branch", pressed, "without a confinement there is no stage 1");
     idle("test.hydrostatic_branch", c.features.plasticity, "with features.plasticity = false nothing yields");
     idle("test.skin_weights", pressed, "without a confinement nothing presses on the lateral surface");

@@ -510,6 +510,15 @@ constexpr std::array keys{
               c.test.skin_weights = r.word == "voronoi" ? SkinWeights::voronoi : SkinWeights::radius;
             }},
 
+    Key{.name = "test.surface",
+        .kind = Kind::word,
+        .default_text = "initial",
+        .words = "initial current",
+        .refused_by = [](const T& t) { return !presses_sides(t); },
+        .reason = "nothing presses on the lateral surface",
+        .meaning = "that the confinement acts on: as it was, or as it is",
+        .store = [](C& c, const R& r) { c.test.current_surface = r.word == "current"; }},
+
     // --- time, run, features, output
     Key{.name = "time.accuracy",
         .kind = Kind::word,
@@ -592,6 +601,11 @@ constexpr std::array keys{
         .default_text = "false",
         .meaning = "stress of each particle and nearness to failure of each bond, in every picture",
         .store = [](C& c, const R& r) { c.stress = r.flag; }},
+    Key{.name = "output.orientation",
+        .kind = Kind::boolean,
+        .default_text = "false",
+        .meaning = "how each particle has turned, in every picture",
+        .store = [](C& c, const R& r) { c.orientation = r.flag; }},
     Key{.name = "output.cracks",
         .kind = Kind::boolean,
         .default_text = "true",

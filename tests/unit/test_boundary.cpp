@@ -200,3 +200,23 @@ TEST_CASE("boundary: the cover of the lateral surface, in packings 0.65 to 0.9")
   CHECK(lateral_cover(a) > 0.65);
   CHECK(lateral_cover(a) < 0.9);
 }
+
+TEST_CASE("boundary: pressure on the surface as it is, 2 pi R H after a stretch [(B115), 1e-12]") {
+  Assembly a = packed(400);
+  Confinement c = make_confinement(a, SkinWeights::radius, false);
+  c.current = true, c.pressure = 9e6;
+  for (Vec3& x : a.particles.position) x = {1.03 * x.x, 1.03 * x.y, 0.9 * x.z};
+  Platens platens;
+  platens.travel = {Vec3{0, 0, 0.005}, Vec3{0, 0, -0.005}};  // a tenth of 100 mm
+  measure_surface(c, a.particles, serial_partition(a.particles.size), platens);
+  CHECK(c.grown == doctest::Approx(1.03 * 0.9).epsilon(1e-12));
+  apply_confinement(c, a.particles, serial_partition(a.particles.size));
+  double inward = 0;
+  for (std::size_t k = 0; k < c.rows.size(); ++k) {
+    const Vec3& x = a.particles.position[c.rows[k]];
+    inward -= (c.force[k].x * x.x + c.force[k].y * x.y) / std::hypot(x.x, x.y);
+  }
+  const double surface = std::numbers::pi * 0.05 * 1.03 * 0.1 * 0.9;
+  CHECK(inward / surface == doctest::Approx(c.acting).epsilon(1e-12));
+  CHECK(c.acting == doctest::Approx(9e6).epsilon(5e-3));
+}
