@@ -137,7 +137,7 @@ void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const Part
   for (std::size_t k = 0; k < before.size; ++k) {
     const double touch = p.radius[before.row_lo[k]] + p.radius[before.row_hi[k]];
     if (before.free_length[k] != touch || !(before.shear_force[k] == Vec3{}) ||
-        (ledger && before.viscous_force[k] != 0.0))
+        (ledger && before.viscous_force[k] != 0.0) || (material.rolls && !(before.couple[k] == Vec3{})))
       known.push_back({std::minmax(before.row_lo[k], before.row_hi[k]), k});
   }
   std::sort(known.begin(), known.end());
@@ -145,6 +145,7 @@ void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const Part
   contacts = ContactTable{};
   contacts.resize(pairs.size(), features);
   if (ledger) contacts.viscous_force.assign(contacts.padded, 0.0);
+  if (material.rolls) contacts.couple.assign(contacts.padded, {});
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [lo, hi] = p.gid[pairs[k].a] < p.gid[pairs[k].b] ? std::pair(pairs[k].a, pairs[k].b)
                                                                 : std::pair(pairs[k].b, pairs[k].a);
@@ -166,6 +167,7 @@ void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const Part
       contacts.free_length[k] = before.free_length[found->second];
       contacts.shear_force[k] = before.shear_force[found->second];
       if (ledger) contacts.viscous_force[k] = before.viscous_force[found->second];
+      if (material.rolls) contacts.couple[k] = before.couple[found->second];
     }
   }
 }

@@ -47,6 +47,7 @@ struct ContactMaterial {
   double young = 0;  ///< Pa
   double alpha = 0;  ///< area factor, as of the bonds
   Space space = Space::three_d;
+  bool rolls = false;  ///< there is friction against rolling
 };
 
 /// Makes the list of candidates anew, their dashpots not yet set; pairs that were in contact keep

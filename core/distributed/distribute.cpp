@@ -62,6 +62,7 @@ void broadcast_contacts(World& w) {
   } else {
     listed.resize(step.contacts, w.features);
     if (w.ledger.enabled) listed.viscous_force.assign(listed.padded, 0.0);
+    if (w.material.rolling_friction > 0.0) listed.couple.assign(listed.padded, {});
   }
   listed.for_each_column([&]<class T>(const ColumnInfo&, Column<T>& column) {
     broadcast(ranks, column.data(), column.size() * sizeof(T));

@@ -135,6 +135,14 @@ Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span
   return view;
 }
 
+Scatter couple_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span<const Index> row_hi,
+                    ParticleTable& particles) {
+  Scatter view = scatter_view(plan, row_lo, row_hi, {}, particles);
+  if (plan.kind == ScatterKind::gather && plan.couples.empty()) plan.couples.resize(plan.rows);
+  view.bond_load = plan.couples;
+  return view;
+}
+
 void collect(ScatterPlan& plan, ParticleTable& particles, Rows own, int threads) {
   const bool torques = !particles.spin.empty();
   if (plan.kind == ScatterKind::gather) {
@@ -146,6 +154,7 @@ void collect(ScatterPlan& plan, ParticleTable& particles, Rows own, int threads)
           const BondLoad& load = plan.bond_load[entry >> 1];
           force += (entry & 1u ? -1.0 : 1.0) * load.force;
           if (torques) torque += plan.entry_share[e] * load.moment;
+          if (!plan.couples.empty()) torque += (entry & 1u ? -1.0 : 1.0) * plan.couples[entry >> 1].force;
         }
         particles.force[p] += force;
         if (torques) particles.torque[p] += torque;

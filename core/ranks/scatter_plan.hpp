@@ -27,6 +27,7 @@ struct ScatterPlan {
   Column<Index> first_entry, entries;
   Column<double> entry_share;  ///< of the bond's moment that the particle gets; empty without torques
   Column<BondLoad> bond_load;
+  Column<BondLoad> couples;  ///< of a second pass, over torques: equal and opposite; empty: none
 
   std::size_t first(int range) const;
 };
@@ -42,6 +43,10 @@ ScatterPlan plan_scatter(ScatterKind kind, int ranges, std::size_t batch, std::s
 /// The view that a pass writes to; valid until the tables change.
 Scatter scatter_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span<const Index> row_hi,
                      std::span<const double> arm_offset, ParticleTable& particles);
+
+/// The same for a pass over couples, behind that over forces and before they are collected.
+Scatter couple_view(ScatterPlan& plan, std::span<const Index> row_lo, std::span<const Index> row_hi,
+                    ParticleTable& particles);
 
 /// After the pass: adds the ranges' own sums, or the columns of forces, to the particles.
 /// @param own  rows that get their sums; of others forces mean nothing

@@ -35,6 +35,7 @@ std::vector<Row> list_contacts(World& w, std::span<const Gid> lo, std::span<cons
   c = ContactTable{};
   c.resize(lo.size(), w.features);
   if (w.ledger.enabled) c.viscous_force.assign(c.padded, 0.0);
+  if (w.material.rolling_friction > 0.0) c.couple.assign(c.padded, {});
   std::vector<Row> rows(lo.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
     rows[order[k]] = static_cast<Row>(k);

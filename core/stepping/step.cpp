@@ -13,6 +13,7 @@
 #include "core/world/scatter_plans.hpp"
 #include "core/world/stable_step.hpp"
 #include "kernels/loops/contact_pass.hpp"
+#include "kernels/loops/rolling_pass.hpp"
 #include "kernels/math/rotation.hpp"
 
 namespace breccia {
@@ -30,7 +31,8 @@ void search_if_due(World& w) {
   // of several ranks the root lists the contacts and looks at the step, for all of them
   World& whole = gather_to_root(w);
   if (w.partition.ranks.is_root()) {
-    const ContactMaterial material{w.material.young_modulus, w.alpha, w.space};
+    const ContactMaterial material{w.material.young_modulus, w.alpha, w.space,
+                                   w.material.rolling_friction > 0.0};
     rebuild_neighbour_list(whole.neighbour_list, whole.contacts, whole.particles, material, whole.features,
                            whole.ledger.enabled, whole.options.threads);
     start_contact_sums(whole.ledger, whole.contacts);
@@ -92,12 +94,50 @@ void pass_over_bonds(World& w, bool reaching) {
   });
 }
 
+RollingScene rolling_scene(const World& w) {
+  const ParticleTable& p = w.particles;
+  return {w.dt, w.material.rolling_friction, inertia_factor(w), p.position, p.spin, p.radius, p.mass};
+}
+
+/// Broken bonds resist to rolling.
+void roll_bonds(World& w) {
+  BondTable& b = w.bonds;
+  if (b.couple.empty()) return;
+  const Lap lap(w.phases, Phase::bonds);
+  const RollingPairs pairs{b.row_lo,    b.row_hi,        b.rest_length,  b.plastic_stretch,
+                           b.stiffness, b.damage_normal, b.damage_shear, b.couple};
+  const Scatter to = couple_view(w.bond_plan, b.row_lo, b.row_hi, w.particles);
+  const std::size_t owned =
+      ForceBuffer::capacity * force_blocks(b.size);  // copies count where they are owned
+  for_ranges(w.bond_plan.ranges, [&](int range) {
+    rolling_pass(rolling_scene(w), pairs, w.bond_plan.first(range), w.bond_plan.first(range + 1), to,
+                 [&](std::size_t k, double taken) {
+                   if (w.ledger.enabled && k < owned)
+                     w.ledger.bonds[k / ForceBuffer::capacity].friction += taken;
+                 });
+  });
+}
+
+void roll_contacts(World& w) {
+  ContactTable& c = w.contacts;
+  if (c.couple.empty()) return;
+  const RollingPairs pairs{c.row_lo, c.row_hi, c.free_length, {}, c.stiffness, {}, {}, c.couple};
+  const Scatter to = couple_view(w.contact_plan, c.row_lo, c.row_hi, w.particles);
+  for_ranges(w.contact_plan.ranges, [&](int range) {
+    rolling_pass(rolling_scene(w), pairs, w.contact_plan.first(range), w.contact_plan.first(range + 1), to,
+                 [&](std::size_t k, double taken) {
+                   if (w.ledger.enabled) w.ledger.contacts[k / ForceBuffer::capacity].friction += taken;
+                 });
+  });
+}
+
 void bond_forces(World& w) {
   pass_over_bonds(w, false);
   if (!w.partition.ranks.alone()) {
     finish_halo_exchange(w);
     pass_over_bonds(w, true);
   }
+  roll_bonds(w);
   const Lap lap(w.phases, Phase::bonds);
   sync_broken(w);
   record_cracks(w.cracks, w.law, w.features.criterion == Criterion::coupled, w.time, w.dt, w.particles,
@@ -117,6 +157,7 @@ void contact_forces(World& w) {
   for_ranges(w.contact_plan.ranges, [&](int range) {
     contact_pass(in, history, w.contact_plan.first(range), w.contact_plan.first(range + 1), to);
   });
+  roll_contacts(w);
   collect(w.contact_plan, p, w.partition.owned(), w.options.threads);
 }
 

@@ -38,6 +38,8 @@ std::string_view name_of(Need need) {
       return "strength area of its own";
     case Need::ledger:
       return "energy ledger";
+    case Need::rolling:
+      return "rolling friction";
     case Need::orientation:
       return "orientation";
     case Need::stress:

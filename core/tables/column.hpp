@@ -28,7 +28,8 @@ enum class Need {
   strength_area,
   ledger,
   stress,
-  orientation
+  orientation,
+  rolling
 };
 
 struct ColumnInfo {

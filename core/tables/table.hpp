@@ -27,6 +27,7 @@ constexpr bool is_needed(Need need, const Features& features) {
     case Need::ledger:
     case Need::stress:
     case Need::orientation:
+    case Need::rolling:
       return false;  // made by the one who fills it
   }
   return true;

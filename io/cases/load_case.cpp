@@ -163,6 +163,13 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   refuse_foreign_keys(layers.set, law);
   for (const ConfinementLayer& group : layers.given_at) refuse_foreign_keys(group.layer, law);
   check_law(laid, base.at("material.law"));
+  if (const auto given = base.find("material.rolling_friction");
+      given != base.end() && given->second.reading.number > 0.0) {
+    if (!c.features.rotation)
+      refuse(given->second.place, given->first, "with features.rotation = false nothing rolls; leave it out");
+    if (c.precision == Precision::mixed)
+      refuse(given->second.place, given->first, "is not built for run.precision = \"mixed\"; leave one out");
+  }
   if (const auto given = base.find("material.shear_under_yield");
       given != base.end() && !given->second.place.empty() && !c.features.plasticity)
     refuse(given->second.place, given->first,

@@ -11,7 +11,7 @@ namespace breccia {
 
 struct ContactBondLaw {
   static constexpr std::string_view name = "contact-bond";
-  static constexpr std::string_view takes = "friction_dynamic";
+  static constexpr std::string_view takes = "friction_dynamic rolling_friction";
   static constexpr std::array own{
       LawParameter{"normal_stiffness", "N/m", 0.0, "", "k_n of a bond; of discs per metre of their thickness",
                    true},

@@ -12,7 +12,8 @@ namespace breccia {
 struct DempackLaw {
   static constexpr std::string_view name = "dempack";
   static constexpr std::string_view takes =
-      "friction_static friction_dynamic tensile_strength shear_strength limit_compressive_stress "
+      "friction_static friction_dynamic rolling_friction tensile_strength shear_strength "
+      "limit_compressive_stress "
       "stiffness_reduction damage_normal damage_shear fracture_energy_normal fracture_energy_shear "
       "failure_strain_normal failure_strain_shear shear_residual criterion "
       "limits shear_under_yield";

@@ -12,7 +12,8 @@ namespace breccia {
 struct ExponentialLaw {
   static constexpr std::string_view name = "exponential";
   static constexpr std::string_view takes =
-      "friction_static friction_dynamic tensile_strength shear_strength damage_normal damage_shear "
+      "friction_static friction_dynamic rolling_friction tensile_strength shear_strength damage_normal "
+      "damage_shear "
       "shear_under_yield";
   static constexpr std::array own{
       LawParameter{"elastic_strain_limit", "1", 0.0, "0.002",

@@ -12,7 +12,7 @@ namespace breccia {
 struct KdemLaw {
   static constexpr std::string_view name = "kdem";
   static constexpr std::string_view takes =
-      "friction_static friction_dynamic tensile_strength shear_strength criterion";
+      "friction_static friction_dynamic rolling_friction tensile_strength shear_strength criterion";
   static constexpr std::array own{
       LawParameter{"normal_factor", "1", 0.0, "1", "alpha of the thesis' eq. 5.7, on k_n", true},
       LawParameter{"shear_factor", "1", 0.0, "1", "beta of the thesis' eq. 5.7, on k_s"},

@@ -25,6 +25,7 @@ struct Material {
   double poisson_ratio = 0;     ///< 1
   double friction_static = 0;   ///< mu_1: how much shear strength grows with pressure on the bond
   double friction_dynamic = 0;  ///< mu_2: Coulomb friction of broken bonds and contacts
+  double rolling_friction = 0;  ///< mu_r, of broken bonds and contacts
   double tensile_strength = 0;  ///< Pa, sigma_t
   double shear_strength = 0;    ///< Pa, tau_f
   std::array<double, 3> limit_compressive_stress{};          ///< Pa, LCS 1, 2, 3, rising
