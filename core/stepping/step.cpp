@@ -96,7 +96,7 @@ void pass_over_bonds(World& w, bool reaching) {
 
 RollingScene rolling_scene(const World& w) {
   const ParticleTable& p = w.particles;
-  return {w.dt, w.material.rolling_friction, inertia_factor(w), p.position, p.spin, p.radius, p.mass};
+  return {w.dt, w.material.rolling_friction, w.shear_ratio, p.position, p.velocity, p.spin, p.radius};
 }
 
 /// Broken bonds resist to rolling.

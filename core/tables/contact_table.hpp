@@ -19,7 +19,7 @@ namespace breccia {
   COLUMN(double, stiffness,   "N/m",   reference, always,          "k_n = E A/(r_lo + r_hi)")                         \
   COLUMN(double, damping,     "N s/m", reference, contact_damping, "c_n as of a bond")                                \
   COLUMN(Vec3,   shear_force, "N",     history,   always,          "friction force on lo")                            \
-  COLUMN(Vec3,   couple,      "N m",   ledger,    rolling,         "resistance to rolling on lo")                     \
+  COLUMN(Vec3,   couple,      "N m",   history,   rolling,         "resistance to rolling on lo")                     \
   COLUMN(double, viscous_force, "N",   ledger,    ledger,          "of the dashpot along the pair, as it was applied, tension positive")
 // clang-format on
 

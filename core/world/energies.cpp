@@ -4,6 +4,7 @@
 
 #include "core/world/loop_views.hpp"
 #include "kernels/loops/bond_energy.hpp"
+#include "kernels/loops/rolling_pass.hpp"
 
 namespace breccia {
 
@@ -46,6 +47,23 @@ double kinetic_energy_of_bonded(const World& w) {
   });
 }
 
+namespace {
+
+/// J, in the springs against rolling of a table of pairs. (B116)
+template <class Table>
+double rolling_energy(const World& w, const Table& t) {
+  if (t.couple.empty() || !(w.shear_ratio > 0.0)) return 0.0;
+  std::vector<double> blocks;
+  return sum_pairs(w.partition, t, w.options.threads, blocks, [&](std::size_t k) {
+    const double size2 = dot(t.couple[k], t.couple[k]);
+    if (!(size2 > 0.0)) return 0.0;
+    const auto& r = w.particles.radius;
+    return 0.5 * size2 / rolling_stiffness(w.shear_ratio * t.stiffness[k], r[t.row_lo[k]], r[t.row_hi[k]]);
+  });
+}
+
+}  // namespace
+
 double stored_energy(const World& w, double back) {
   std::vector<double> blocks;
   const ParticleTable& p = w.particles;
@@ -55,20 +73,22 @@ double stored_energy(const World& w, double back) {
   const BondTable& b = w.bonds;
   const bool coupled = w.features.criterion == Criterion::coupled;
   const BondEnergyIn in = bond_energy_in(w, back);
-  const double sum = std::visit(
-      [&](const auto& law) {
-        return sum_pair_ranges(
-            w.partition, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
-              double energy = w.undamaged_energy(in, first, last);
-              if (b.damage_normal.empty()) return energy;
-              for (std::size_t k = first; k < last; ++k)
-                if (b.damage_normal[k] > 0.0 || b.damage_shear[k] > 0.0)
-                  energy += stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k),
-                                          distance_of(b.row_lo[k], b.row_hi[k]), coupled);
-              return energy;
-            });
-      },
-      w.law);
+  const double sum =
+      rolling_energy(w, w.bonds) + rolling_energy(w, w.contacts) +
+      std::visit(
+          [&](const auto& law) {
+            return sum_pair_ranges(
+                w.partition, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
+                  double energy = w.undamaged_energy(in, first, last);
+                  if (b.damage_normal.empty()) return energy;
+                  for (std::size_t k = first; k < last; ++k)
+                    if (b.damage_normal[k] > 0.0 || b.damage_shear[k] > 0.0)
+                      energy += stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k),
+                                              distance_of(b.row_lo[k], b.row_hi[k]), coupled);
+                  return energy;
+                });
+          },
+          w.law);
   const ContactTable& c = w.contacts;
   if (!w.neighbour_list.awake) return sum;
   return sum + sum_pairs(w.partition, c, w.options.threads, blocks, [&](std::size_t k) {

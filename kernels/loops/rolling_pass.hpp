@@ -1,6 +1,7 @@
 // Resistance to rolling where surfaces press without a bond: broken bonds and contacts. A pass of
 // its own behind that over their forces, for scenes that ask for it.
 #pragma once
+#include "kernels/laws/pair_kinematics.hpp"
 #include "kernels/laws/rolling_friction.hpp"
 #include "kernels/loops/scatter.hpp"
 
@@ -8,18 +9,18 @@ namespace breccia {
 
 /// The particles, and the constants of the scene.
 struct RollingScene {
-  double dt = 0;              ///< s
-  double friction = 0;        ///< mu_r
-  double inertia_factor = 0;  ///< I = factor m r^2
-  Strided<const Vec3> position, spin;
-  std::span<const double> radius, mass;
+  double dt = 0;           ///< s
+  double friction = 0;     ///< mu_r
+  double shear_ratio = 0;  ///< k_s/k_n
+  Strided<const Vec3> position, velocity, spin;
+  std::span<const double> radius;
 };
 
 /// Pairs that may press; spans by row. Damage is empty where nothing was ever bonded.
 struct RollingPairs {
   std::span<const Index> row_lo, row_hi;
   std::span<const double> free_length, plastic_stretch, stiffness, damage_normal, damage_shear;
-  std::span<Vec3> couple;  ///< N m, on lo, of the step before; brought up to this one
+  std::span<Vec3> couple;  ///< N m, on lo
 
   /// N, with which surfaces press; nothing through a bond.
   double pressed(std::size_t k, double distance) const {
@@ -29,6 +30,12 @@ struct RollingPairs {
   }
 };
 
+/// (B116): N m per rad, of a spring against rolling, k_s R^2 with R = r_i r_j/(r_i + r_j).
+inline double rolling_stiffness(double shear_stiffness, double radius_lo, double radius_hi) {
+  const double lever = radius_lo * radius_hi / (radius_lo + radius_hi);
+  return shear_stiffness * lever * lever;
+}
+
 /// Torques on the lower ends of pairs [first, last), opposite ones on the upper ends. (B116)
 /// @param book  book(pair, J): what rolling has taken over this step
 template <class Book>
@@ -36,6 +43,9 @@ void rolling_pass(const RollingScene& scene, const RollingPairs& pairs, std::siz
                   Scatter to, const Book& book) {
   to.force = to.torque;  // equal and opposite, as forces are
   to.torque = {};
+  const auto end = [&](Index row) {
+    return End<double>{scene.position[row], scene.velocity[row], scene.spin[row]};
+  };
   ForceBuffer block;
   while (first < last) {
     const std::size_t count = last - first < ForceBuffer::capacity ? last - first : ForceBuffer::capacity;
@@ -43,25 +53,21 @@ void rolling_pass(const RollingScene& scene, const RollingPairs& pairs, std::siz
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t at = first + k;
       const Index lo = pairs.row_lo[at], hi = pairs.row_hi[at];
-      const Vec3 l = scene.position[hi] - scene.position[lo];
-      const double distance = norm(l), force = pairs.pressed(at, distance);
-      Vec3 couple;
-      Vec3& before = pairs.couple[at];
-      if (force > 0.0) {
+      Vec3& couple = pairs.couple[at];
+      const double force = pairs.pressed(at, norm(scene.position[hi] - scene.position[lo]));
+      if (force > 0.0 || !(couple == Vec3{})) {
         const double a = scene.radius[lo], b = scene.radius[hi];
-        const Vec3 rolling = rolling_spin(scene.spin[lo], scene.spin[hi], (1.0 / distance) * l);
-        const double ia = scene.inertia_factor * scene.mass[lo] * a * a,
-                     ib = scene.inertia_factor * scene.mass[hi] * b * b;
-        // a particle may have a dozen neighbours that all brake it: each takes a tenth of the
-        // spin in a step
-        couple = constant_rolling_torque(rolling, scene.friction * a * b / (a + b) * force,
-                                         0.1 * ia * ib / (ia + ib), scene.dt);
-      }
-      if (!(before == Vec3{}) || !(couple == Vec3{})) {
-        book(at, -0.5 * scene.dt * dot(before + couple, scene.spin[lo] - scene.spin[hi]));
+        const double spring = rolling_stiffness(scene.shear_ratio * pairs.stiffness[at], a, b);
+        const Pair<double> pair = relative_motion<true>(ends_of(end(lo), end(hi)), 0.0, scene.dt);
+        const Vec3 rolling = rolling_spin(scene.spin[lo], scene.spin[hi], pair.normal);
+        const Vec3 turned = rotate_with_pair<true>(couple, pair);
+        couple = turned - (spring * scene.dt) * rolling;
+        const double size = norm(couple), limit = scene.friction * a * b / (a + b) * force;
+        if (size > limit) couple = (limit / size) * couple;
+        const double kept = spring > 0.0 ? 0.5 * (dot(couple, couple) - dot(turned, turned)) / spring : 0.0;
+        book(at, -0.5 * scene.dt * dot(turned + couple, rolling) - kept);
         rolls = true;
       }
-      before = couple;
       block.load[k] = {couple, {}};
     }
     if (rolls || to.mode == ScatterMode::column) scatter(to, block, first, count);
