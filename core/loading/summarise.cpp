@@ -112,6 +112,24 @@ void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunS
   run.first_cracks = 2 * central >= first ? "central" : "at the strips";
 }
 
+/// Ends that are free sideways fail first: a sphere there has neighbours on one side only, whose forces
+/// push it out. (B117)
+void warn_of_ends(const World& w, const Assembly& a, const LoadTest& load, RunSummary& run) {
+  if (a.grip != Support::ends || load.loading != Loading::compression || w.options.rough_platens) return;
+  const auto& cracks = w.cracks.cracks;
+  const std::size_t first = std::min<std::size_t>(200, cracks.size());
+  if (first < 20) return;
+  std::size_t at_ends = 0;
+  for (std::size_t k = 0; k < first; ++k) at_ends += std::abs(cracks[k].position.z) > 0.35 * a.length();
+  const double share = static_cast<double>(at_ends) / static_cast<double>(first);
+  if (share > 0.6)
+    run.warnings.push_back(
+        fmt::format("smooth platens: {:.0f} % of the first {} cracks lie at the ends: the peak is a strength "
+                    "of the ends, a "
+                    "fifth to a third below that of the specimen; use test.platens = \"rough\"",
+                    100 * share, first));
+}
+
 /// Pa, mean over the rows around the peak whose stress is within 5 % of it: one row alone reads the
 /// waves that each broken bond sends out.
 double held_around_peak(std::span<const CurveRow> rows, std::size_t peak) {
@@ -285,6 +303,7 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
     run.warnings.push_back("no strength: " + f.doubt);
     run.tensile_strength_Pa = run.strip_corrected_strength_Pa = {};
   }
+  warn_of_ends(w, a, load, run);
   warn_if_not_elastic(f, run);
   warn_if_dynamic(f, run);
   warn_of_modulus(w.material, run);

@@ -241,6 +241,12 @@ class Impossible(Case):
             with self.subTest(key=place):
                 self.refused("ucs", lines, place, word, "leave it out")
 
+    def test_strength_of_the_ends(self):
+        packed = UCS.replace('file = "specimen.csv"', "pack.spheres = 800")
+        for platens, said in (("smooth", True), ("rough", False)):
+            run_ = self.go("ucs", packed.replace("stop_strain = 0.006", f'platens = "{platens}"\nstop_strain = 0.004'))["runs"][0]
+            self.assertEqual(any("a strength of the ends" in line for line in run_["warnings"]), said, run_["warnings"])
+
     def test_strips_and_stage_1(self):
         disc = UCS.replace('diameter = "50 mm"\nheight = "100 mm"', 'shape = "disc"\ndiameter = "50 mm"\nheight = "25 mm"').replace(
             'file = "specimen.csv"', "pack.spheres = 200")
