@@ -52,7 +52,8 @@ namespace {
 /// J, in the springs against rolling of a table of pairs. (B116)
 template <class Table>
 double rolling_energy(const World& w, const Table& t) {
-  if (t.couple.empty() || !(w.shear_ratio > 0.0)) return 0.0;
+  // every rank takes part in the sum, one without rows too
+  if (!(w.material.rolling_friction > 0.0) || !(w.shear_ratio > 0.0)) return 0.0;
   std::vector<double> blocks;
   return sum_pairs(w.partition, t, w.options.threads, blocks, [&](std::size_t k) {
     const double size2 = dot(t.couple[k], t.couple[k]);
@@ -91,7 +92,8 @@ double stored_energy(const World& w, double back) {
           w.law);
   const ContactTable& c = w.contacts;
   if (!w.neighbour_list.awake) return sum;
-  return sum + sum_pairs(w.partition, c, w.options.threads, blocks, [&](std::size_t k) {
+  return sum + rolling_energy(w, c) +
+         sum_pairs(w.partition, c, w.options.threads, blocks, [&](std::size_t k) {
            const double overlap = c.free_length[k] - distance_of(c.row_lo[k], c.row_hi[k]);
            if (overlap <= 0.0) return 0.0;
            double energy = 0.5 * c.stiffness[k] * overlap * overlap;

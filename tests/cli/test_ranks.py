@@ -112,6 +112,23 @@ class SeveralRanks(ProgramTest):
         ours, theirs = (json.loads((f / "summary.json").read_text())["runs"][0] for f in (self.out, self.work / "short"))
         self.assertEqual(ours["state_hash"], theirs["state_hash"])
 
+    def test_options_that_keep_more(self):
+        """Rolling, orientation, the surface as it is, lists every N steps: the same bits on three ranks as on one."""
+        options = (*GATHER, "--set", "material.rolling_friction=0.5", "--set", "output.orientation=true", "--set", 'test.surface="current"',
+                   "--set", "run.search_every=20", "--set", 'test.confinement=["8 MPa"]', "--set", "output.frames=1", "--threads", "1", "--quiet")
+        self.finish(self.launch(3, "triaxial", self.one, *options, "--out", self.out))
+        alone = run("triaxial", self.one, *options, "--out", self.work / "one")
+        self.assertEqual(alone.returncode, 0, alone.stderr)
+        ours, theirs = (json.loads((f / "summary.json").read_text())["runs"][0] for f in (self.out, self.work / "one"))
+        for key in ("state_hash", "contact_searches", "localisation", "stage1_broken", "stage1_yielded", "broken_shear"):
+            self.assertEqual(ours[key], theirs[key], key)
+        self.assertGreater(ours["contact_searches"], 20)
+        with h5py.File(self.out / "results.h5") as mine, h5py.File(self.work / "one" / "results.h5") as other:
+            frame = sorted(name for name in other["run-0"] if name.startswith("frame"))[-1]
+            name = f"run-0/{frame}/particles/orientation"
+            np.testing.assert_array_equal(mine[name][()], other[name][()])
+            self.assertGreater(abs(other[name][()]).max(), 1e-4)
+
     def test_ranks_without_a_contact(self):
         # bonds so long that nothing unbonded is near, but around one loose sphere, which is the second rank's
         with (self.shelf / "packed" / "specimen.csv").open(newline="") as file:

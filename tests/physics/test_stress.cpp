@@ -70,7 +70,6 @@ TEST_CASE(
     const World w = compressed(elastic(), 500, rough, false);
     const auto f = scene::forces_now(w).force;
     std::vector<Vec3> outside(f.size());
-    Vec3 free_net;
     double most = 0, unrest = 0;
     for (std::size_t k = 0; k < f.size(); ++k) {
       if (k >= w.particles.free)
@@ -202,7 +201,6 @@ TEST_CASE(
   const World w = compressed(elastic(), 500, false, true);
   const auto f = scene::forces_now(w).force;
   double sideways = 0, reaction = 0, radial = 0, inner = 0;
-  Stress moment;
   for (std::size_t k = 0; k < w.particles.size; ++k) {
     const Vec3 u = w.particles.position[k] - w.particles.reference_position[k], &x = w.particles.position[k];
     const bool skin =
