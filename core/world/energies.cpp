@@ -75,7 +75,7 @@ double stored_energy(const World& w, double back) {
   const bool coupled = w.features.criterion == Criterion::coupled;
   const BondEnergyIn in = bond_energy_in(w, back);
   const double sum =
-      rolling_energy(w, w.bonds) + rolling_energy(w, w.contacts) +
+      rolling_energy(w, w.bonds) +
       std::visit(
           [&](const auto& law) {
             return sum_pair_ranges(
