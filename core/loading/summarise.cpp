@@ -112,8 +112,8 @@ void read_disc(const World& w, const Assembly& a, const LoadResult& result, RunS
   run.first_cracks = 2 * central >= first ? "central" : "at the strips";
 }
 
-/// Ends that are free sideways fail first: a sphere there has neighbours on one side only, whose forces
-/// push it out. (B117)
+/// Ends that are free sideways fail first: a sphere there has neighbours on one side only, whose
+/// forces push it out. (B117)
 void warn_of_ends(const World& w, const Assembly& a, const LoadTest& load, RunSummary& run) {
   if (a.grip != Support::ends || load.loading != Loading::compression || w.options.rough_platens) return;
   const auto& cracks = w.cracks.cracks;
