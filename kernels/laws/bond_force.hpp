@@ -8,12 +8,13 @@ namespace breccia {
 /// What a bond does at the end of a step.
 template <class R>
 struct BondAction {
-  R spring;        ///< N, along the normal, tension positive: the law's force
-  R along;         ///< N, the same with the dashpot
-  R shear_factor;  ///< g of k_s
-  Vec<R> shear;    ///< N, on lo
-  Vec<R> rotated;  ///< N, the history of shear as it came into the step, turned with the pair
-  R yielded{};     ///< part of this step's slip that is plastic
+  R spring;             ///< N, along the normal, tension positive: the law's force
+  R along;              ///< N, the same with the dashpot
+  R shear_factor;       ///< g of k_s
+  Vec<R> shear;         ///< N, on lo
+  Vec<R> rotated;       ///< N, the history of shear as it came into the step, turned with the pair
+  bool yields = false;  ///< some of this step's slip may be plastic:
+  R yielded{};          ///< this part of it
 };
 
 /// (B107): the part of a step's slip that is plastic while the compression of a bond yields, so
@@ -44,18 +45,20 @@ inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, c
   const Vec<R> rotated = rotate_with_pair<features.rotation>(h.shear, pair);
   const R shear_stiffness = R(law.shear_ratio) * bond.stiffness;
   h.shear = rotated + shear_stiffness * pair.slip;  // (B20) (P37)
-  R elastic = u, yielded(0.0);
+  BondAction<R> action;
+  R elastic = u;
   if constexpr (features.plasticity) {
     const R before = h.plastic_stretch;
-    h.plastic_stretch = plastic_stretch(law, bond, u, before);
+    const bool may_yield = yield(law, bond, u, h.plastic_stretch);
     elastic = u - h.plastic_stretch;
-    const auto yields = h.plastic_stretch < before;
-    if (law.shear_follows && any(yields)) {
+    if (may_yield && law.shear_follows) {
+      const auto yields = h.plastic_stretch < before;
       const R flow = before - h.plastic_stretch;
       const R pressed = bond.stiffness * larger(R(0.5) * (pair.stretching + flow) - elastic, R(0.0));
       const R part = plastic_part_of_slip(pair, flow, pressed, rotated);
-      yielded = select(yields, part, R(0.0));
-      h.shear -= (yielded * shear_stiffness) * pair.slip;  // (B107)
+      action.yields = true;
+      action.yielded = select(yields, part, R(0.0));
+      h.shear -= (action.yielded * shear_stiffness) * pair.slip;  // (B107)
     }
   }
   BondForce<R> f;
@@ -74,7 +77,9 @@ inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, c
       total = select(broken && total > R(0.0), R(0.0), total);
     }
   }
-  return {f.normal, total, f.shear_factor, f.shear, rotated, yielded};
+  action.spring = f.normal, action.along = total, action.shear_factor = f.shear_factor;
+  action.shear = f.shear, action.rotated = rotated;
+  return action;
 }
 
 /// The force alone.

@@ -5,10 +5,10 @@
 //   feature_sets     the scenes that a kernel is built for, from the leanest to the fullest
 //   of(material)     its constants from a material
 //   young, shear_ratio, failure
-// and, where it has plasticity, shear_follows (B107) and, beside it, plastic_stretch(law, bond, u,
-// before); `stiffness_of` and
-// `limits_of` are overloaded where k_n is not E A/L or strengths are not stresses. It is registered
-// by its line in kernels/laws/bond_laws.hpp.
+// and, where it has plasticity, shear_follows (B107) and, beside it, yield(law, bond, u, plastic),
+// which brings the plastic stretch up to date and says whether any may have yielded; `stiffness_of`
+// and `limits_of` are overloaded where k_n is not E A/L or strengths are not stresses. It is
+// registered by its line in kernels/laws/bond_laws.hpp.
 #pragma once
 #include <limits>
 #include <string_view>

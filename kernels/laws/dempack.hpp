@@ -68,14 +68,16 @@ inline R envelope_stress(const DempackLaw& law, const R& e) {
 
 /// Puts a compressive trial above the envelope back onto it; the plastic stretch takes the rest
 /// (P52).
+/// @returns false where no bond is beyond its first limit
 template <class R>
-inline R plastic_stretch(const DempackLaw& law, const BondConstants<R>& bond, const R& u, const R& before) {
-  const R trial = -bond.stiffness * (u - before);  // N, positive in compression
+inline bool yield(const DempackLaw& law, const BondConstants<R>& bond, const R& u, R& plastic) {
+  const R trial = -bond.stiffness * (u - plastic);  // N, positive in compression
   const auto above_first = trial > R(law.limit_stress[0]) * bond.area;
-  if (!any(above_first)) return before;
+  if (!any(above_first)) return false;
   const R strain = -u * bond.stiffness / (R(law.young) * bond.area);  // -u/strain_length
   const R limit = envelope_stress(law, strain) * bond.area;
-  return select(above_first && trial > limit, u + limit / bond.stiffness, before);  // (P52)
+  plastic = select(above_first && trial > limit, u + limit / bond.stiffness, plastic);  // (P52)
+  return true;
 }
 
 }  // namespace breccia

@@ -60,16 +60,16 @@ inline R secant_ratio(const ExponentialLaw& law, const R& e) {
 
 /// Puts a compressive trial above the envelope k_n L e_max + K2 L (e - e_max) back onto it. (B26)
 template <class R>
-inline R plastic_stretch(const ExponentialLaw& law, const BondConstants<R>& bond, const R& u,
-                         const R& before) {
+inline bool yield(const ExponentialLaw& law, const BondConstants<R>& bond, const R& u, R& plastic) {
   const R length = strain_length(law.young, bond);
   const R e = -u / length;
   const auto beyond = e > R(law.strain_limit);
-  if (!any(beyond)) return before;
+  if (!any(beyond)) return false;
   const R limit =
       bond.stiffness * length * (R(law.strain_limit) + secant_ratio(law, e) * (e - R(law.strain_limit)));
-  const R trial = -bond.stiffness * (u - before);
-  return select(beyond && trial > limit, u + limit / bond.stiffness, before);
+  const R trial = -bond.stiffness * (u - plastic);
+  plastic = select(beyond && trial > limit, u + limit / bond.stiffness, plastic);
+  return true;
 }
 
 }  // namespace breccia

@@ -66,8 +66,10 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
   R in_shear(0.0);                         // J, taken up by slip that is plastic
   if constexpr (features.plasticity) {
     loss.plastic = mean_spring * (h.plastic_stretch - before.plastic_stretch);  // (B51)
-    in_shear = action.yielded * shear_work;                                     // (B107)
-    shear_loss -= in_shear;
+    if (action.yields) {
+      in_shear = action.yielded * shear_work;  // (B107)
+      shear_loss -= in_shear;
+    }
   }
 
   if constexpr (features.breakage) {
@@ -101,7 +103,7 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
   } else {
     loss.damage = shear_loss;  // round-off, and an error of the step where a pair turns fast
   }
-  loss.plastic += in_shear;
+  if (action.yields) loss.plastic += in_shear;
   last = {action.spring, viscous, action.shear_factor};
   return loss;
 }
