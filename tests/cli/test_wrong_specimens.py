@@ -183,14 +183,14 @@ class LooseSpheres(Specimens):
         self.assertIn("1 sphere hangs on nothing", self.dry(UCS, "ucs"))
         # a speck in a hole, which moves with nothing
         self.place([s for s in self.spheres if math.hypot(*s[1:4]) > 0.012] + [[999, 0.0, 0.0, 0.0, 0.001, 1]])
-        with_speck = self.summary(UCS, "ucs", ["--set", "bonds.alpha=1"])
+        # 300 spheres around a hole: with an elastic shear stiffness equal runs differ little
+        alike = ["--set", "bonds.alpha=1", "--set", 'material.shear_under_yield="elastic"']
+        with_speck = self.summary(UCS, "ucs", alike)
         self.kept(lambda x, y, z: math.hypot(x, y, z) > 0.012)
-        without = self.summary(UCS, "ucs", ["--set", "bonds.alpha=1"])
+        without = self.summary(UCS, "ucs", alike)
         self.assertEqual(with_speck["loose_particles"], 1)
-        for key in ("young_modulus_Pa", "poisson_ratio"):
-            self.assertAlmostEqual(with_speck[key] / without[key], 1, delta=0.01)
-        # 300 spheres around a hole, from another row on: bonds break in another order
-        self.assertAlmostEqual(with_speck["peak_stress_Pa"] / without["peak_stress_Pa"], 1, delta=0.05)
+        for key in ("young_modulus_Pa", "poisson_ratio", "peak_stress_Pa"):
+            self.assertAlmostEqual(with_speck[key] / without[key], 1, delta=0.02)
 
     def test_unbonded_at_the_surface(self):
         self.grouped(lambda x, y, z: 0 if abs(z) < 0.02 and x > 0.014 else 1)

@@ -42,7 +42,8 @@ std::vector<Kernel> kernels() {
   return all;
 }
 
-Bundle random_bundle(const Kernel& kernel, std::uint64_t seed) {
+/// @param follows  shear yields with the compression
+Bundle random_bundle(const Kernel& kernel, std::uint64_t seed, bool follows = true) {
   const Features& features = kernel.features;
   Bundle s;
   ref::Parameters& p = s.parameters;
@@ -51,6 +52,7 @@ Bundle random_bundle(const Kernel& kernel, std::uint64_t seed) {
   p.plasticity = features.plasticity;
   p.breakage = features.breakage;
   p.criterion = kernel.criterion;
+  p.shear_follows = follows;
   p.delta_n = 0.5;
   p.delta_s = 0.4;
   std::mt19937_64 random(seed);
@@ -161,59 +163,62 @@ bool same_history(const BondTable& a, std::size_t k, const BondTable& b, std::si
 
 TEST_CASE(
     "bond pass: all feature sets and instruction sets as the reference's pair update [random pairs, rel "
-    "1e-10]") {
-  for (const Kernel& kernel : kernels())
-    for (const InstructionSet set : scene::sets_of_this_machine()) {
-      const Features& features = kernel.features;
-      Bundle s = random_bundle(kernel, 7);
-      double force = 0, moment = 0, history = 0;
-      int broken = 0, newly_broken = 0;
-      for (const ref::Bond& b : s.reference) broken -= b.broken != ref::Broken::no;
-      for (int step = 0; step < 6; ++step) {
-        const Loads got = pass(s, features, set);
-        for (std::size_t k = 0; k < s.bonds.size; ++k) {
-          ref::Bond& b = s.reference[k];
-          const auto end = [&](std::size_t row) {
-            ref::Particle a;
-            a.radius = s.particles.radius[row], a.x = s.particles.position[row],
-            a.v = s.particles.velocity[row];
-            if (features.rotation) a.w = s.particles.spin[row];
-            return a;
-          };
-          ref::Particle i = end(b.i), j = end(b.j);
-          ref::update_bond(s.parameters, b, i, j, s.dt);
-          const double scale = s.parameters.LCS[0] * b.area;
-          const auto worse = [](double& worst, double miss) { worst = miss <= worst ? worst : miss; };
-          worse(force, norm(got.load[k].force - i.force) / scale);
-          worse(force, norm(got.load[k].force + j.force) / scale);
-          if (features.rotation) {
-            // ends lie far apart here: arms are up to ten radii
-            const double arms = norm(j.x - i.x) / (i.radius + j.radius);
-            worse(moment, norm((0.5 + s.bonds.arm_offset[k]) * got.load[k].moment - i.torque) /
-                              (scale * arms * i.radius));
-            worse(moment, norm((0.5 - s.bonds.arm_offset[k]) * got.load[k].moment - j.torque) /
-                              (scale * arms * j.radius));
-          }
-          worse(history,
-                norm(Vec3{s.bonds.shear_x[k], s.bonds.shear_y[k], s.bonds.shear_z[k]} - b.F_s) / scale);
-          if (features.plasticity) worse(history, std::abs(s.bonds.plastic_stretch[k] - b.u_p) / b.d0);
-          if (features.breakage)
-            worse(history, std::max(std::abs(s.bonds.damage_normal[k] - b.D_n),
-                                    std::abs(s.bonds.damage_shear[k] - b.D_s)));
+    "1e-11; 1e-10 where shear yields]") {
+  const auto hold = [](const Kernel& kernel, InstructionSet set, bool follows) {
+    const Features& features = kernel.features;
+    Bundle s = random_bundle(kernel, 7, follows);
+    double force = 0, moment = 0, history = 0;
+    int broken = 0, newly_broken = 0;
+    for (const ref::Bond& b : s.reference) broken -= b.broken != ref::Broken::no;
+    for (int step = 0; step < 6; ++step) {
+      const Loads got = pass(s, features, set);
+      for (std::size_t k = 0; k < s.bonds.size; ++k) {
+        ref::Bond& b = s.reference[k];
+        const auto end = [&](std::size_t row) {
+          ref::Particle a;
+          a.radius = s.particles.radius[row], a.x = s.particles.position[row],
+          a.v = s.particles.velocity[row];
+          if (features.rotation) a.w = s.particles.spin[row];
+          return a;
+        };
+        ref::Particle i = end(b.i), j = end(b.j);
+        ref::update_bond(s.parameters, b, i, j, s.dt);
+        const double scale = s.parameters.LCS[0] * b.area;
+        const auto worse = [](double& worst, double miss) { worst = miss <= worst ? worst : miss; };
+        worse(force, norm(got.load[k].force - i.force) / scale);
+        worse(force, norm(got.load[k].force + j.force) / scale);
+        if (features.rotation) {
+          // ends lie far apart here: arms are up to ten radii
+          const double arms = norm(j.x - i.x) / (i.radius + j.radius);
+          worse(moment, norm((0.5 + s.bonds.arm_offset[k]) * got.load[k].moment - i.torque) /
+                            (scale * arms * i.radius));
+          worse(moment, norm((0.5 - s.bonds.arm_offset[k]) * got.load[k].moment - j.torque) /
+                            (scale * arms * j.radius));
         }
-        for (std::size_t k = 0; k < s.particles.size; ++k)
-          s.particles.position[k] += s.dt * s.particles.velocity[k];
+        worse(history,
+              norm(Vec3{s.bonds.shear_x[k], s.bonds.shear_y[k], s.bonds.shear_z[k]} - b.F_s) / scale);
+        if (features.plasticity) worse(history, std::abs(s.bonds.plastic_stretch[k] - b.u_p) / b.d0);
+        if (features.breakage)
+          worse(history, std::max(std::abs(s.bonds.damage_normal[k] - b.D_n),
+                                  std::abs(s.bonds.damage_shear[k] - b.D_s)));
       }
-      for (const ref::Bond& b : s.reference) newly_broken += b.broken != ref::Broken::no;
-      INFO(name_of(set), ", rotation ", features.rotation, ", plasticity ", features.plasticity,
-           ", breakage ", features.breakage, ", criterion ", int(kernel.criterion));
-      // the plastic part of a slip is a quotient of differences of lengths (B107), good to 1e-16
-      // d/du
-      CHECK(force < 1e-10);
-      CHECK(moment < 1e-10);
-      CHECK(history < 1e-10);
-      if (features.breakage) CHECK(newly_broken + broken > 10);
+      for (std::size_t k = 0; k < s.particles.size; ++k)
+        s.particles.position[k] += s.dt * s.particles.velocity[k];
     }
+    for (const ref::Bond& b : s.reference) newly_broken += b.broken != ref::Broken::no;
+    INFO(name_of(set), ", rotation ", features.rotation, ", plasticity ", features.plasticity, ", breakage ",
+         features.breakage, ", criterion ", int(kernel.criterion));
+    // the plastic part of a slip is a quotient of differences of lengths (B107), good to 1e-16
+    // d/du
+    const double allowed = follows && features.plasticity ? 1e-10 : 1e-11;
+    CHECK(force < allowed);
+    CHECK(moment < allowed);
+    CHECK(history < allowed);
+    if (features.breakage) CHECK(newly_broken + broken > 10);
+  };
+  for (const Kernel& kernel : kernels())
+    for (const InstructionSet set : scene::sets_of_this_machine())
+      for (const bool follows : {false, true}) hold(kernel, set, follows);
 }
 
 TEST_CASE(
