@@ -22,6 +22,16 @@ inline Vec3 constant_rolling_torque(const Vec3& rolling, double limit, double in
   return (-smaller(limit, inertia * rate / dt) / rate) * rolling;
 }
 
+/// Torque on lo, N m: a spring against rolling that slips at a limit.
+/// @param torque  N m, of the step before
+/// @param spring  N m per rad
+inline Vec3 slipping_rolling_torque(const Vec3& torque, const Vec3& rolling, double spring, double limit,
+                                    double dt) {
+  const Vec3 next = torque - (spring * dt) * rolling;
+  const double size = norm(next);
+  return size > limit ? (limit / size) * next : next;
+}
+
 /// (B38): torque on lo, N m: a spring of stiffness 2.25 k_n (mu_r R*)^2 that yields at the limit.
 /// @param torque     N m, of the step before
 /// @param stiffness  N/m, k_n at the present overlap
@@ -29,10 +39,7 @@ inline Vec3 constant_rolling_torque(const Vec3& rolling, double limit, double in
 /// @param force      N, normal, positive
 inline Vec3 elastic_plastic_rolling_torque(const Vec3& torque, const Vec3& rolling, double stiffness,
                                            double lever, double force, double dt) {
-  Vec3 next = torque - (2.25 * stiffness * lever * lever * dt) * rolling;
-  const double size = norm(next), limit = lever * force;
-  if (size > limit) next = (limit / size) * next;
-  return next;
+  return slipping_rolling_torque(torque, rolling, 2.25 * stiffness * lever * lever, lever * force, dt);
 }
 
 }  // namespace breccia

@@ -17,13 +17,6 @@ struct GlobalDamping {
   bool viscous = false;
 };
 
-/// F - alpha |F| v/|v|; F where v is zero. (P39) (P40)
-inline Vec3 damped(const Vec3& force, const Vec3& velocity, double alpha) {
-  const double speed2 = dot(velocity, velocity);
-  if (!(speed2 > 0.0)) return force;
-  return force - (alpha * std::sqrt(dot(force, force) / speed2)) * velocity;
-}
-
 /// The brake on a velocity (or spin): the force (torque) that opposes it, over it.
 /// @param part     fraction of the force, or rate in 1/s where viscous
 /// @param inertia  kg, kg m^2

@@ -61,9 +61,8 @@ void rolling_pass(const RollingScene& scene, const RollingPairs& pairs, std::siz
         const Pair<double> pair = relative_motion<true>(ends_of(end(lo), end(hi)), 0.0, scene.dt);
         const Vec3 rolling = rolling_spin(scene.spin[lo], scene.spin[hi], pair.normal);
         const Vec3 turned = rotate_with_pair<true>(couple, pair);
-        couple = turned - (spring * scene.dt) * rolling;
-        const double size = norm(couple), limit = scene.friction * a * b / (a + b) * force;
-        if (size > limit) couple = (limit / size) * couple;
+        const double limit = scene.friction * a * b / (a + b) * force;
+        couple = slipping_rolling_torque(turned, rolling, spring, limit, scene.dt);
         const double kept = spring > 0.0 ? 0.5 * (dot(couple, couple) - dot(turned, turned)) / spring : 0.0;
         book(at, -0.5 * scene.dt * dot(turned + couple, rolling) - kept);
         rolls = true;

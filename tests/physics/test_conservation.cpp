@@ -273,6 +273,9 @@ TEST_CASE(
   CHECK(w.particles.velocity[0].z == doctest::Approx(kick + second - 0.3 * std::abs(second)).epsilon(1e-9));
   // what moves under no force is not held back, nor is what stands under one pushed aside
   const Vec3 still{}, F{3, -4, 12}, v{1, 2, 2};
+  const auto damped = [](const Vec3& force, const Vec3& velocity, double part) {
+    return force - brake_on(velocity, force, part, false, 1.0) * velocity;
+  };
   CHECK(damped(F, still, 0.3) == F);
   CHECK(damped(still, v, 0.3) == still);
   const Vec3 d = damped(F, v, 0.3);
