@@ -34,6 +34,8 @@ inline Material material_of(const reference::Parameters& p) {
   m.fracture_energy_normal = p.G_I;
   m.fracture_energy_shear = p.G_II;
   m.criterion = static_cast<Criterion>(p.criterion);
+  m.unloading_modulus = p.unloads * p.E;
+  if (p.yield_stress > 0) m.yield_stress = p.yield_stress;
   m.shear_under_yield = p.shear_follows ? ShearUnderYield::tangent : ShearUnderYield::elastic;
   return m;
 }

@@ -93,6 +93,8 @@ void choose_step(World& w) {
   if (!(std::isfinite(w.critical_dt) && w.critical_dt > 0.0)) refuse_step(w);
   // (B116): a spring against rolling adds a quarter at most to what shear gives a particle
   if (w.material.rolling_friction > 0.0) w.critical_dt /= std::sqrt(1.25);
+  if (w.features.plasticity)  // (B118): a bond that has yielded may be stiffer
+    w.critical_dt /= std::sqrt(std::visit([](const auto& law) { return stiffest(law); }, w.law));
   if (o.global_damping.viscous) {
     // (B113): (w dt/2)^2 = 1 - c dt/2 instead of 1
     const double a = 0.25 * w.critical_dt * w.critical_dt * o.global_damping.translation;

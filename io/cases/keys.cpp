@@ -253,6 +253,18 @@ constexpr std::array keys{
         .count = 3,
         .meaning = "YRC 1, 2, 3: the slope beyond a limit is E/YRC",
         .store_material = [](M& m, const R& r) { m.stiffness_reduction = three(r.numbers); }},
+    Key{.name = "material.unloading_modulus",
+        .dimension = dimension::stress,
+        .range = more_than(0),
+        .meaning = "of a bond that has yielded, on its way back; E if not given",
+        .store_material = [](M& m, const R& r) { m.unloading_modulus = r.number; }},
+    Key{.name = "material.yield_stress",
+        .dimension = dimension::stress,
+        .range = more_than(0),
+        .meaning =
+            "where plasticity begins, LCS 1 if not given; between LCS 1 and it a bond goes back the way "
+            "it came",
+        .store_material = [](M& m, const R& r) { m.yield_stress = r.number; }},
     Key{.name = "material.damage_normal",
         .range = at_least(0),
         .meaning = "delta_n: softening branch over elastic branch",

@@ -175,6 +175,16 @@ Material make_material(const Layer& layer, const FeatureCase& features, Elastici
   }
   if (by_stiffness && !layer.contains("material.young_modulus"))
     material.young_modulus = material.own.at("normal_stiffness");  // per metre: for wave speeds only
+  if (material.unloading_modulus && *material.unloading_modulus < material.young_modulus)
+    refuse(layer.find("material.unloading_modulus")->second.place, "material.unloading_modulus",
+           fmt::format("must be at least material.young_modulus, {} GPa, not {}: a bond would give back more "
+                       "than it took up",
+                       1e-9 * material.young_modulus, 1e-9 * *material.unloading_modulus));
+  if (material.yield_stress && *material.yield_stress < material.limit_compressive_stress[0])
+    refuse(layer.find("material.yield_stress")->second.place, "material.yield_stress",
+           fmt::format("must be at least the first limit_compressive_stress, {} MPa, not {}: below it a bond "
+                       "is elastic",
+                       1e-6 * material.limit_compressive_stress[0], 1e-6 * *material.yield_stress));
   // (B16): kappa = (1 - 4 nu)/(1 + nu) falls to zero there
   constexpr double largest = 0.25;
   if (elasticity == Elasticity::matched && !by_stiffness && material.poisson_ratio > largest)

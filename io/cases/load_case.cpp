@@ -170,10 +170,12 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
     if (c.precision == Precision::mixed)
       refuse(given->second.place, given->first, "is not built for run.precision = \"mixed\"; leave one out");
   }
-  if (const auto given = base.find("material.shear_under_yield");
-      given != base.end() && !given->second.place.empty() && !c.features.plasticity)
-    refuse(given->second.place, given->first,
-           "with features.plasticity = false nothing yields; leave it out");
+  for (const char* name :
+       {"material.shear_under_yield", "material.unloading_modulus", "material.yield_stress"})
+    if (const auto given = base.find(name);
+        given != base.end() && !given->second.place.empty() && !c.features.plasticity)
+      refuse(given->second.place, given->first,
+             "with features.plasticity = false nothing yields; leave it out");
   std::vector<ConfinementLayer> at;
   for (std::size_t k = 0; k < found.size(); ++k) {
     Layer& material = found[k].layer;

@@ -51,10 +51,16 @@ inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, c
     const R before = h.plastic_stretch;
     const bool may_yield = yield(law, bond, u, h.plastic_stretch);
     elastic = u - h.plastic_stretch;
+    R elastic_growth = pair.stretching + (before - h.plastic_stretch);
+    if (unloads_elsewhere(law)) {  // (B118)
+      const R was = carried_stretch(law, bond, u - pair.stretching, before);
+      elastic = carried_stretch(law, bond, u, h.plastic_stretch);
+      elastic_growth = elastic - was;
+    }
     if (may_yield && law.shear_follows) {
       const auto yields = h.plastic_stretch < before;
       const R flow = before - h.plastic_stretch;
-      const R pressed = bond.stiffness * larger(R(0.5) * (pair.stretching + flow) - elastic, R(0.0));
+      const R pressed = bond.stiffness * larger(R(0.5) * elastic_growth - elastic, R(0.0));
       const R part = plastic_part_of_slip(pair, flow, pressed, rotated);
       action.yields = true;
       action.yielded = select(yields, part, R(0.0));

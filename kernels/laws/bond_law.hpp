@@ -6,7 +6,9 @@
 //   of(material)     its constants from a material
 //   young, shear_ratio, failure
 // and, where it has plasticity, shear_follows (B107) and, beside it, yield(law, bond, u, plastic),
-// which brings the plastic stretch up to date and says whether any may have yielded; `stiffness_of`
+// which brings the plastic stretch up to date and says whether any may have yielded, and where a
+// bond may unload on another line than k_n, unloads_elsewhere, carried_stretch and pressed_energy
+// (B118); `stiffness_of`
 // and `limits_of` are overloaded where k_n is not E A/L or strengths are not stresses. It is
 // registered by its line in kernels/laws/bond_laws.hpp.
 #pragma once
@@ -35,6 +37,36 @@ struct LawDefault {
 template <class Law>
 inline double stiffness_of(const Law& law, double area, double length) {
   return law.young * area / length;
+}
+
+/// Whether bonds unload on another line than k_n. (B118)
+template <class Law>
+inline bool unloads_elsewhere(const Law& law) {
+  if constexpr (requires { law.unloads_elsewhere(); })
+    return law.unloads_elsewhere();
+  else
+    return false;
+}
+
+/// Largest stiffness of a bond along its normal, in k_n. (B118)
+template <class Law>
+inline double stiffest(const Law& law) {
+  if constexpr (requires { law.unloads; })
+    return larger(1.0, law.unloads);
+  else
+    return 1.0;
+}
+
+/// m, the stretch at which k_n would carry what the bond carries. (B118)
+template <class Law, class R>
+inline R carried_stretch(const Law&, const BondConstants<R>&, const R& u, const R& plastic) {
+  return u - plastic;
+}
+
+/// J, that a pressed bond gives back. (B118)
+template <class Law, class R>
+inline R pressed_energy(const Law&, const BondConstants<R>& bond, const R& u, const R& plastic) {
+  return R(0.5) * bond.stiffness * (u - plastic) * (u - plastic);
 }
 
 /// Largest tension and cohesion of a bond, N: strengths are stresses.

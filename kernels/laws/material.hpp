@@ -30,6 +30,8 @@ struct Material {
   double shear_strength = 0;    ///< Pa, tau_f
   std::array<double, 3> limit_compressive_stress{};          ///< Pa, LCS 1, 2, 3, rising
   std::array<double, 3> stiffness_reduction{1.0, 1.0, 1.0};  ///< YRC 1, 2, 3: slope beyond a limit is E/YRC
+  std::optional<double> unloading_modulus;  ///< Pa, E of a bond that has yielded, on its way back (B118)
+  std::optional<double> yield_stress;       ///< Pa, LCS 1 or above, where plasticity begins (B118)
   double damage_normal = 0;  ///< delta_n: length of the softening branch over the elastic one (P47)
   double damage_shear = 0;   ///< delta_s
   std::optional<double> fracture_energy_normal;  ///< J/m^2, G_I: instead of damage_normal

@@ -14,6 +14,14 @@ struct BondSecant {
   double delta_normal = 0, delta_shear = 0;
 };
 
+/// Factor on k_n of a pressed bond. (B118)
+template <class Law>
+inline double pressed_ratio(const Law& law, const BondConstants<double>& bond, const BondHistory<double>& h,
+                            double distance, double elastic) {
+  if (!unloads_elsewhere(law) || elastic == 0.0) return 1.0;
+  return carried_stretch(law, bond, distance - bond.rest_length, h.plastic_stretch) / elastic;
+}
+
 /// @param distance  m, between the centres
 template <class Law>
 inline BondSecant secant_of(const Law& law, const BondConstants<double>& bond, const BondHistory<double>& h,
@@ -30,7 +38,9 @@ inline BondSecant secant_of(const Law& law, const BondConstants<double>& bond, c
     const double a = bond.stiffness * s.elastic / limits.tension, b = norm(h.shear) / limits.cohesion;
     s.delta_normal = s.delta_shear = (s.delta_normal * a + s.delta_shear * b) / (a + b);
   }
-  s.normal = !s.pulled ? 1.0 : s.broken ? 0.0 : softening(h.damage_normal, s.delta_normal);
+  s.normal = !s.pulled  ? pressed_ratio(law, bond, h, distance, s.elastic)
+             : s.broken ? 0.0
+                        : softening(h.damage_normal, s.delta_normal);
   s.shear = s.broken ? 1.0 : softening(h.damage_shear, s.delta_shear);
   return s;
 }
@@ -48,7 +58,9 @@ inline double stored_energy(const Law& law, const BondConstants<double>& bond, c
     s = secant_of(law, bond, h, distance, coupled);
   const double shear2 = dot(h.shear, h.shear);  // of k_s times the secant displacement, or of the friction
   // (B50)
-  const double normal_part = 0.5 * bond.stiffness * s.normal * s.elastic * s.elastic;
+  double normal_part = 0.5 * bond.stiffness * s.normal * s.elastic * s.elastic;
+  if (unloads_elsewhere(law) && s.elastic < 0.0)
+    normal_part = pressed_energy(law, bond, distance - bond.rest_length, h.plastic_stretch);
   if (!(law.shear_ratio > 0.0)) return normal_part;
   return normal_part + 0.5 * s.shear * shear2 / (law.shear_ratio * bond.stiffness);
 }

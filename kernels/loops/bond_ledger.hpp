@@ -36,12 +36,30 @@ inline R damage_energy(const R& damage, const R& tension, const R& stiffness, co
 /// Of a bond without damage the forces follow from where it was.
 /// @param stretch  m, elongation of the step since
 /// @param before   the history as it was then
-template <Features features, class R>
-inline LastForces<R> forces_before(const BondConstants<R>& bond, const Pair<R>& pair, const R& stretch,
-                                   const BondHistory<R>& before, const R& viscous) {
-  R elastic = pair.distance - stretch - bond.rest_length;
-  if constexpr (features.plasticity) elastic -= before.plastic_stretch;
+template <Features features, class Law, class R>
+inline LastForces<R> forces_before(const Law& law, const BondConstants<R>& bond, const Pair<R>& pair,
+                                   const R& stretch, const BondHistory<R>& before, const R& viscous) {
+  const R u = pair.distance - stretch - bond.rest_length;
+  R elastic = u;
+  if constexpr (features.plasticity) {
+    elastic -= before.plastic_stretch;
+    if (unloads_elsewhere(law)) elastic = carried_stretch(law, bond, u, before.plastic_stretch);  // (B118)
+  }
   return {bond.stiffness * elastic, viscous, R(1.0)};
+}
+
+/// J, that the spring along a bond stores, given the force that it has, N.
+template <Features features, class Law, class R>
+inline R stored_along(const Law& law, const BondConstants<R>& bond, const R& u, const BondHistory<R>& h,
+                      const R& spring) {
+  R elastic = u;
+  if constexpr (features.plasticity) {
+    elastic -= h.plastic_stretch;
+    if (unloads_elsewhere(law))  // (B118)
+      return select(elastic < R(0.0), pressed_energy(law, bond, u, h.plastic_stretch),
+                    R(0.5) * spring * elastic);
+  }
+  return R(0.5) * spring * elastic;
 }
 
 /// @param stretch  m, elongation of the step
@@ -66,6 +84,14 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
   R in_shear(0.0);                         // J, taken up by slip that is plastic
   if constexpr (features.plasticity) {
     loss.plastic = mean_spring * (h.plastic_stretch - before.plastic_stretch);  // (B51)
+    if (unloads_elsewhere(law)) {                                               // (B118)
+      const R u = pair.distance - bond.rest_length;
+      const R kept = stored_along<features>(law, bond, u, h, action.spring) -
+                     stored_along<features>(law, bond, u - stretch, before, last.spring);
+      auto undamaged = u - h.plastic_stretch < zero || u - stretch - before.plastic_stretch < zero;
+      if constexpr (features.breakage) undamaged = undamaged && h.damage_normal == before.damage_normal;
+      loss.plastic = select(undamaged, mean_spring * stretch - kept, loss.plastic);
+    }
     if (action.yields) {
       in_shear = action.yielded * shear_work;  // (B107)
       shear_loss -= in_shear;
@@ -81,14 +107,10 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
       return breaks;
     }();
     if (any(coupled_damage || breaks)) {
-      R elastic = pair.distance - bond.rest_length;
-      R elastic_before = elastic - stretch;
-      if constexpr (features.plasticity) {
-        elastic -= h.plastic_stretch;
-        elastic_before -= before.plastic_stretch;
-      }
+      const R u = pair.distance - bond.rest_length;
       normal_loss = mean_spring * stretch - loss.plastic -
-                    half * (action.spring * elastic - last.spring * elastic_before);
+                    (stored_along<features>(law, bond, u, h, action.spring) -
+                     stored_along<features>(law, bond, u - stretch, before, last.spring));
       if constexpr (features.criterion != Criterion::coupled) {
         const R delta = delta_normal(law.failure, strain_length(law.young, bond));
         normal_loss -= damage_energy(h.damage_normal - before.damage_normal, limits_of(law, bond).tension,

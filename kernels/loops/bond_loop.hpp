@@ -147,7 +147,7 @@ template <Features features, class Law, class Bonds>
   const Lanes stretch = elongation(ends, pair, dt);
   Lanes viscous(0.0);
   if constexpr (features.contact_damping) viscous = bonds.template load<Column::viscous_force>(b);
-  LastForces<Lanes> last = forces_before<features>(bond, pair, stretch, before, viscous);
+  LastForces<Lanes> last = forces_before<features>(law, bond, pair, stretch, before, viscous);
   if (is_damaged<features>(before)) {
     // bond by bond: which others share a register changes with the processor and the number of
     // ranks

@@ -269,6 +269,13 @@ class Impossible(Case):
                      "material.shear_under_yield: law \"kdem\" has no shear_under_yield")
         self.refused("ucs", UCS.replace('preset = "concrete"', 'preset = "concrete"\nshear_under_yield = "elastic"') + "[features]\nplasticity = false\n",
                      "material.shear_under_yield: with features.plasticity = false nothing yields")
+        preset = 'preset = "concrete"'
+        self.refused("ucs", UCS.replace(preset, preset + '\nunloading_modulus = "20 GPa"'),
+                     "material.unloading_modulus: must be at least material.young_modulus, 28 GPa, not 20")
+        self.refused("ucs", UCS.replace(preset, preset + '\nyield_stress = "1 MPa"'),
+                     "material.yield_stress: must be at least the first limit_compressive_stress, 20 MPa, not 1")
+        self.refused("ucs", UCS.replace(preset, preset + '\nyield_stress = "40 MPa"') + "[features]\nplasticity = false\n",
+                     "material.yield_stress: with features.plasticity = false nothing yields")
 
     def test_resolved_cases_stay_accepted(self):
         self.go("ucs", test('platen_speed = "0.4 m/s"\nstop_strain = 0.001'))

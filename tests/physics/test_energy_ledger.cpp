@@ -174,9 +174,16 @@ TEST_CASE("Bodies that break up and rub balance, in every channel, with the squa
   p.tau_f = 1e6;
   p.xi = 0.2;
   p.damping_translation = p.damping_rotation = 0.1;
-  for (const ref::Criterion criterion :
-       {ref::Criterion::uncoupled, ref::Criterion::coupled, ref::Criterion::mohr_coulomb}) {
-    p.criterion = criterion;
+  struct Variant {
+    ref::Criterion criterion;
+    double unloads, yield_stress;
+  };
+  for (const auto& [criterion, unloads, yield_stress] : {Variant{ref::Criterion::uncoupled, 1, 0},
+                                                         {ref::Criterion::coupled, 1, 0},
+                                                         {ref::Criterion::mohr_coulomb, 1, 0},
+                                                         {ref::Criterion::uncoupled, 2, 0},
+                                                         {ref::Criterion::uncoupled, 2, 3e6}}) {
+    p.criterion = criterion, p.unloads = unloads, p.yield_stress = yield_stress;  // (B118)
     const World w = ledger_world(colliding(), p, 0);
     const auto error_at = [&](double fraction) {
       World run = w;

@@ -115,21 +115,30 @@ double envelope(const Parameters& p, const Bond& b, double e) {
 // (P52): a trial above the envelope is put on it, the plastic stretch takes the rest.
 void yield(const Parameters& p, Bond& b, double u) {
   const double e = -u / b.strain_length;
-  const double s = -b.k_n * (u - b.u_p) / b.area;
+  const double s = -b.k_n * (b.u_p < 0 ? p.unloads : 1.0) * (u - b.u_p) / b.area;
   if (e * b.k_n * b.strain_length / b.area <= p.LCS[0])
     return;  // elastic branch: nothing but round-off to take
   const double limit = envelope(p, b, e);
-  if (s > limit) b.u_p = u + limit * b.area / b.k_n;
+  if (s > limit && limit >= p.yield_stress) b.u_p = u + limit * b.area / (p.unloads * b.k_n);  // (B118)
+}
+
+// (B118): the stretch at which k_n would carry what the bond carries.
+double carried(const Parameters& p, const Bond& b, double u, double u_p) {
+  if (!p.plasticity || u - u_p >= 0) return u - u_p;
+  if (u_p < 0) return p.unloads * (u - u_p);
+  if (p.yield_stress > p.LCS[0] && -b.k_n * u / b.area > p.LCS[0])
+    return -envelope(p, b, -u / b.strain_length) * b.area / b.k_n;
+  return u;
 }
 
 // (B107): the part of the slip that is plastic. It is that of the stretch, but gains no more work
 // than the pressure loses.
-double plastic_slip(const Parameters& p, const Bond& b, double flow, double longer, double u_e, const Vec3& F,
-                    const Vec3& du) {
+double plastic_slip(const Parameters& p, const Bond& b, double flow, double longer, double u_e, double u_e0,
+                    const Vec3& F, const Vec3& du) {
   if (!p.shear_follows || flow <= 0 || norm(du) == 0) return 0;
   double part = std::min(1.0, flow / std::abs(longer));
   const double gain = -dot(F, du);
-  if (gain > 0) part = std::clamp(-b.k_n * (u_e - 0.5 * (longer + flow)) * flow / gain, 0.0, part);
+  if (gain > 0) part = std::clamp(-b.k_n * 0.5 * (u_e + u_e0) * flow / gain, 0.0, part);
   return part;
 }
 
@@ -288,11 +297,12 @@ void make_bonds(World& world) {
 // --- Sections 3 and 4
 // ---------------------------------------------------------------------------------------------
 
-void bond_law(const Parameters& p, Bond& b, double u, double longer, const Vec3& carried, const Vec3& du) {
+void bond_law(const Parameters& p, Bond& b, double u, double longer, const Vec3& turned, const Vec3& du) {
   const double before = b.u_p;
   if (p.plasticity) yield(p, b, u);
-  const double u_e = u - b.u_p;
-  b.F_s = carried + (1 - plastic_slip(p, b, before - b.u_p, longer, u_e, carried, du)) * b.k_s * du;  // (B20)
+  const double u_e = carried(p, b, u, b.u_p), u_e0 = carried(p, b, u - longer, before);
+  b.F_s =
+      turned + (1 - plastic_slip(p, b, before - b.u_p, longer, u_e, u_e0, turned, du)) * b.k_s * du;  // (B20)
   if (b.broken == Broken::no) intact_bond(p, b, u_e);
   if (b.broken != Broken::no) broken_bond(p, b, u_e);  // also in the very step of failure
 }

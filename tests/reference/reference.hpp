@@ -34,6 +34,8 @@ struct Parameters {
   double xi = 0.9;                                       ///< contact damping, fraction of critical
   double damping_translation = 0, damping_rotation = 0;  ///< global, non-viscous
   Criterion criterion = Criterion::uncoupled;
+  double unloads = 1;         ///< k_u/k_n of a bond that has yielded
+  double yield_stress = 0;    ///< Pa, where plasticity begins; below LCS[0]: there
   bool shear_follows = true;  ///< k_s falls as k_n does while compression yields
   double alpha = 1.0;         ///< factor on contact areas
   double beta = 0.10;         ///< bonding range

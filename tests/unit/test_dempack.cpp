@@ -662,6 +662,13 @@ TEST_CASE(
   elastic_shear.shear_follows = false;
   hold_random<uncoupled>(elastic_shear, 11);
   hold_random<coupled>(elastic_shear, 12);
+  for (const double onset : {0.0, 33e6}) {  // (B118)
+    Parameters stiff_return;
+    stiff_return.unloads = 1.7;
+    stiff_return.yield_stress = onset;
+    hold_random<uncoupled>(stiff_return, 18);
+    hold_random<coupled>(stiff_return, 19);
+  }
   Parameters tough_paths;
   tough_paths.G_I = 30;
   tough_paths.G_II = 1200;
