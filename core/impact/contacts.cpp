@@ -111,7 +111,7 @@ double step_demand(const ContactSlopes& s, double dt) {
 }
 
 bool rebuild_is_due(const ImpactSearch& search, const ParticleTable& p) {
-  if (search.position.empty()) return true;
+  if (search.position.empty() || 2.0 * search.walls_moved >= search.skin) return true;
   const double most = 0.25 * search.skin * search.skin;
   for (std::size_t row = 0; row < p.size; ++row) {
     const Vec3 moved = p.position[row] - search.position[row];
@@ -120,10 +120,26 @@ bool rebuild_is_due(const ImpactSearch& search, const ParticleTable& p) {
   return false;
 }
 
-void renew_contacts(ImpactSearch& search, const ImpactScene& scene, const ParticleTable& p,
-                    ImpactContactTable& pairs, ImpactContactTable& walls) {
+double reach_of(const WallMotion& motion, double time, std::span<const Vec3> position,
+                std::span<const double> radius) {
+  const Vec3 centre = centre_at(motion, time);
+  double reach = 0.0;
+  for (std::size_t k = 0; k < position.size(); ++k)
+    reach = std::max(reach, norm(position[k] - centre) + radius[k]);
+  return reach;
+}
+
+void renew_contacts(ImpactSearch& search, const ImpactScene& scene, std::span<const Wall> placed, double time,
+                    const ParticleTable& p, ImpactContactTable& pairs, ImpactContactTable& walls) {
   search.position = p.position.copy();
   ++search.rebuilds;
+  search.wall_speed = search.walls_moved = 0.0;
+  for (const ImpactWall& wall : scene.walls) {
+    if (!wall.motion.moves()) continue;
+    // points farther out meet no particle before the next list
+    const double reach = reach_of(wall.motion, time, search.position, p.radius) + 8.0 * search.skin;
+    search.wall_speed = std::max(search.wall_speed, surface_speed(wall.shape, wall.motion, reach));
+  }
   std::vector<Candidate> near;
   for (const auto& [a, b] : near_pairs(p.position, p.radius, 0.0, search.skin, scene.threads))
     near.push_back({a, b});
@@ -133,7 +149,7 @@ void renew_contacts(ImpactSearch& search, const ImpactScene& scene, const Partic
   near.clear();
   for (std::size_t row = 0; row < p.size; ++row)
     for (std::size_t wall = 0; wall < scene.walls.size(); ++wall)
-      if (clearance(scene.walls[wall].shape, p.position[row]) < p.radius[row] + search.skin)
+      if (clearance(placed[wall], p.position[row]) < p.radius[row] + search.skin)
         near.push_back({static_cast<Row>(row), static_cast<Row>(wall)});
   renew_list(walls, near, [&](const Candidate& c) {
     return wall_constants(scene, c.row, scene.walls[c.partner].material);

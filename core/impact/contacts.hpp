@@ -52,8 +52,10 @@ double step_demand(const ContactSlopes& slopes, double dt);
 
 /// Both lists of candidates, renewed when particles have used up the skin.
 struct ImpactSearch {
-  double skin = 0;        ///< m
-  Column<Vec3> position;  ///< m, when the lists were made
+  double skin = 0;         ///< m
+  Column<Vec3> position;   ///< m, when the lists were made
+  double wall_speed = 0;   ///< m/s, of the fastest point of a wall's surface near a particle
+  double walls_moved = 0;  ///< m, at most, since the lists were made
   std::uint64_t rebuilds = 0;
 };
 
@@ -61,7 +63,12 @@ struct ImpactSearch {
 bool rebuild_is_due(const ImpactSearch& search, const ParticleTable& particles);
 
 /// New lists, sorted by row and partner, with the memory of the contacts that were on the old ones.
-void renew_contacts(ImpactSearch& search, const ImpactScene& scene, const ParticleTable& particles,
-                    ImpactContactTable& pairs, ImpactContactTable& walls);
+/// @param placed  the walls at this time, s
+void renew_contacts(ImpactSearch& search, const ImpactScene& scene, std::span<const Wall> placed, double time,
+                    const ParticleTable& particles, ImpactContactTable& pairs, ImpactContactTable& walls);
+
+/// m, from the centre of a motion to the far side of the farthest particle.
+double reach_of(const WallMotion& motion, double time, std::span<const Vec3> position,
+                std::span<const double> radius);
 
 }  // namespace breccia

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/tables/column.hpp"
+#include "core/geometry/wall_motion.hpp"
+#include "core/tables/particle_table.hpp"
 #include "kernels/laws/hertz_mindlin.hpp"
-#include "kernels/math/wall.hpp"
 
 namespace breccia {
 
@@ -33,11 +33,16 @@ struct ImpactParticle {
   Vec3 spin;                 ///< rad/s, at the start
   double radius = 0;         ///< m
   std::size_t material = 0;  ///< of ImpactScene::materials
+  double overlap = 0;        ///< 1, part of a radius that it may overlap others and walls at the start
 };
 
 struct ImpactWall {
-  Wall shape;
-  std::size_t material = 0;
+  Wall shape;                ///< at time 0
+  std::size_t material = 0;  ///< of ImpactScene::materials
+  WallMotion motion{};
+  std::size_t name = 0;  ///< of ImpactScene::wall_names
+  double load = 0;       ///< N, a weight that presses a plane along its normal; it gives way
+  double mass = 0;       ///< kg, of a plane with a load
 };
 
 /// Friction, restitution and rolling friction of two different materials are their arithmetic
@@ -46,6 +51,7 @@ struct ImpactScene {
   std::vector<ImpactMaterial> materials;
   std::vector<ImpactParticle> particles;  ///< that of row k has the global id k + 1
   std::vector<ImpactWall> walls;
+  std::vector<std::string> wall_names;  ///< what forces on walls are summed by
   ContactLaw law = ContactLaw::hertz_mindlin;
   HertzForm form = HertzForm::dissipative;
   RollingModel rolling = RollingModel::elastic_plastic;
@@ -54,6 +60,7 @@ struct ImpactScene {
   double duration = 0;              ///< s
   double safety = 0.002;            ///< of the critical step
   int rows = 1000;                  ///< of the curve, about
+  int frames = 0;                   ///< pictures of the particles, evenly over the run
   int threads = 1;
 };
 
@@ -65,6 +72,12 @@ struct ImpactRow {
   double tangential_force_N = 0;  ///< size
   double kinetic_J = 0;           ///< of all particles, spin included
   double contacts = 0;            ///< pressed at this instant
+};
+
+/// What the walls of one name take up. Torque about the centre of their motion.
+struct WallLoad {
+  Vec3 force, torque;  ///< N, N m, on the walls
+  double work = 0;     ///< J, that they have done on the particles
 };
 
 /// What became of one particle.
@@ -79,6 +92,7 @@ struct ImpactRecord {
 struct ImpactResult {
   std::vector<ImpactRecord> particles;
   std::vector<ImpactRow> rows;
+  std::vector<std::vector<WallLoad>> wall_rows;  ///< of each row, by name: means of the steps since the last
   std::uint64_t steps = 0, searches = 0;
   double time_step = 0, critical_time_step = 0;  ///< s
   double time = 0;                               ///< s, reached
@@ -109,11 +123,16 @@ double critical_impact_step(const ImpactScene& scene);
 /// @throws BadScene when there are more than anybody can wait for
 double impact_steps(const ImpactScene& scene, double critical_step);
 
+/// What a run calls on its way.
+struct ImpactWatch {
+  std::function<bool(double time)> interrupted{};  ///< now and then; true ends the run
+  std::function<void(const ParticleTable&, int number, double time)>
+      frame{};  ///< ImpactScene::frames of them
+};
+
 /// Runs a scene from start to end. `result` holds what there is when it throws.
-/// @param interrupted  asked now and then; true ends the run
 /// @throws BadInput as above; SimulationBroke: not a number, an overlap beyond half a radius, more
 ///         or deeper contacts than the step allows
-void run_impact(const ImpactScene& scene, ImpactResult& result,
-                const std::function<bool()>& interrupted = {});
+void run_impact(const ImpactScene& scene, ImpactResult& result, const ImpactWatch& watch = {});
 
 }  // namespace breccia

@@ -7,6 +7,7 @@
 #include "io/cases/keys_value.hpp"
 #include "io/cases/keys_write.hpp"
 #include "io/impact_cases/impact_keys.hpp"
+#include "io/specimens/read_specimen.hpp"
 #include "io/text/suggest.hpp"
 #include "io/text/text_file.hpp"
 #include "io/text/toml_depth.hpp"
@@ -15,7 +16,8 @@ namespace breccia {
 namespace {
 
 constexpr std::string_view program = "impact";
-const std::vector<std::string> tables{"materials", "particle", "wall", "contact", "scene", "time", "output"};
+const std::vector<std::string> tables{"materials", "particle", "spheres", "wall",
+                                      "contact",   "scene",    "time",    "output"};
 
 std::string_view table_of(const Key& key) { return key.name.substr(0, key.name.find('.')); }
 std::string_view word_of(const Key& key) { return key.name.substr(key.name.find('.') + 1); }
@@ -200,17 +202,41 @@ struct Reader {
     return static_cast<std::size_t>(at - names.begin());
   }
 
+  std::size_t heavy_material_of(const std::string& name, std::string_view key, const TomlNode& entry) const {
+    const std::size_t material = material_of(name, key, entry);
+    if (!(result.scene.materials[material].density > 0.0))
+      refuse(entry.place, key, fmt::format("[materials.{}] has no density; give it one", name));
+    return material;
+  }
+
+  /// Particles of a file may overlap a little, as those of a heap at rest do.
+  void spheres() {
+    const TomlNode* node = find("spheres");
+    if (!node) return;
+    constexpr double settled = 0.05;
+    SpheresEntry s;
+    const std::string lines =
+        read_fields(all_of(spheres_fields()), as_table(*node, "spheres", "[spheres]"), node->place, "", s);
+    const std::size_t material = heavy_material_of(s.material, "spheres.material", *node);
+    check_specimen_type(s.file);
+    for (const SpecimenSphere& sphere : read_specimen(s.file).spheres)
+      result.scene.particles.push_back({sphere.centre, s.velocity, s.spin, sphere.radius, material, settled});
+    result.spheres_file = s.file;
+    result.resolved += "\n[spheres]\n" + lines;
+  }
+
   void particles() {
     const TomlNode* node = find("particle");
-    if (!node) refuse(file, "particle", "missing; write [[particle]], once for each");
+    if (!node) {
+      if (!find("spheres"))
+        refuse(file, "particle", "missing; write [[particle]], once for each, or [spheres] with a file");
+      return;
+    }
     for (const TomlNode& entry : as_list(*node, "particle")) {
       ParticleEntry p;
       const std::string lines = read_fields(all_of(particle_fields()),
                                             as_table(entry, "particle", "[[particle]]"), entry.place, "", p);
-      p.particle.material = material_of(p.material, "particle.material", entry);
-      if (!(result.scene.materials[p.particle.material].density > 0.0))
-        refuse(entry.place, "particle.material",
-               fmt::format("[materials.{}] has no density; give it one", p.material));
+      p.particle.material = heavy_material_of(p.material, "particle.material", entry);
       result.scene.particles.push_back(p.particle);
       result.resolved += "\n[[particle]]\n" + lines;
     }
@@ -228,6 +254,38 @@ struct Reader {
              wall.kind == WallKind::triangle ? "the three corners lie on one line"
                                              : "a direction has no length");
     wall.direction = (1.0 / length) * wall.direction;
+  }
+
+  /// A motion that says nothing, or another one than that of the walls of the same name.
+  void check_motion(const WallEntry& w, const TomlTable& table, const TomlNode& entry) const {
+    const WallMotion& m = w.wall.motion;
+    for (const auto& [word, node] : table) {
+      if ((word == "starts" || word == "stops") && !m.moves())
+        refuse(node.place, "wall." + word,
+               "the wall does not move; give it a velocity or a spin, or leave it out");
+      if (word == "stops" && !(m.stop > m.start))
+        refuse(node.place, "wall.stops", "must be later than wall.starts");
+      if (word == "starts" && !(m.start < result.scene.duration))
+        refuse(node.place, "wall.starts",
+               fmt::format("is not before the end, time.duration = {} s", result.scene.duration));
+      if (word == "name" && (w.name.empty() || w.name.find_first_of(",\"\n\r") != std::string::npos))
+        refuse(node.place, "wall.name", "one or more characters, no comma, quote or line end");
+    }
+    if ((w.wall.load > 0.0) != (w.wall.mass > 0.0))
+      refuse(entry.place, w.wall.load > 0.0 ? "wall.mass" : "wall.load",
+             "missing; a plane that gives way has both, a mass and a load");
+    for (const ImpactWall& other : result.scene.walls)
+      if (other.name == w.wall.name && !(other.motion == m))
+        refuse(entry.place, "wall.name",
+               fmt::format("another wall {} moves otherwise; walls of one name are one body", quote(w.name)));
+  }
+
+  /// The number of a name, a new one if it is.
+  std::size_t number_of(const std::string& name) {
+    auto& names = result.scene.wall_names;
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end()) names.push_back(name);
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
   }
 
   void walls() {
@@ -248,6 +306,9 @@ struct Reader {
                                                : WallKind::triangle;
       finish(w.wall.shape, entry);
       w.wall.material = material_of(w.material, "wall.material", entry);
+      if (w.name.empty()) w.name = fmt::format("wall-{}", result.scene.walls.size() + 1);
+      w.wall.name = number_of(w.name);
+      check_motion(w, table, entry);
       result.scene.walls.push_back(w.wall);
       result.resolved += "\n[[wall]]\n" + lines;
     }
@@ -315,6 +376,7 @@ ImpactCase load_impact_case(const std::filesystem::path& file, const std::vector
   reader.scene();
   reader.materials();
   reader.particles();
+  reader.spheres();
   reader.walls();
   reader.idle();
   reader.start();
@@ -329,6 +391,7 @@ std::string describe_impact_keys() {
   describe_fields(text, scene_fields(), "[", "]");
   describe_fields(text, material_fields(), "[", ".NAME]");
   describe_fields(text, particle_fields(), "[[", "]]");
+  describe_fields(text, spheres_fields(), "[", "]");
   describe_fields(text, wall_fields(), "[[", "]]");
   return text;
 }

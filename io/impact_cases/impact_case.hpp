@@ -12,6 +12,7 @@ namespace breccia {
 struct ImpactCase {
   ImpactScene scene;
   std::vector<std::string> material_names;  ///< of scene.materials
+  std::string spheres_file;                 ///< empty where there is none
   std::string resolved;                     ///< the whole case as TOML, every default written out
 };
 

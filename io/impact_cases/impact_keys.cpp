@@ -81,6 +81,32 @@ constexpr std::array particles{
              true},
 };
 
+using H = SpheresEntry;
+constexpr std::array spheres{
+    Field<H>{{.name = "spheres.file",
+              .kind = Kind::text,
+              .meaning = "of spheres, .csv or .mdpa as a specimen's; numbered after those of [[particle]]"},
+             [](H& h, const R& r) { h.file = r.word; },
+             true},
+    Field<H>{{.name = "spheres.material", .kind = Kind::text, .meaning = "NAME of [materials.NAME]"},
+             [](H& h, const R& r) { h.material = r.word; },
+             true},
+    Field<H>{{.name = "spheres.velocity",
+              .kind = Kind::quantities,
+              .dimension = dimension::speed,
+              .default_text = "0 0 0",
+              .count = 3,
+              .meaning = "at the start"},
+             [](H& h, const R& r) { h.velocity = vector_of(r); }},
+    Field<H>{{.name = "spheres.spin",
+              .kind = Kind::quantities,
+              .dimension = spin,
+              .default_text = "0 0 0",
+              .count = 3,
+              .meaning = "angular velocity at the start"},
+             [](H& h, const R& r) { h.spin = vector_of(r); }},
+};
+
 using W = WallEntry;
 constexpr std::array walls{
     Field<W>{{.name = "wall.kind",
@@ -143,6 +169,56 @@ constexpr std::array walls{
     Field<W>{{.name = "wall.material", .kind = Kind::text, .meaning = "NAME of [materials.NAME]"},
              [](W& w, const R& r) { w.material = r.word; },
              true},
+    Field<W>{{.name = "wall.velocity",
+              .kind = Kind::quantities,
+              .dimension = dimension::speed,
+              .default_text = "0 0 0",
+              .count = 3,
+              .meaning = "of the wall, which moves as a rigid body"},
+             [](W& w, const R& r) { w.wall.motion.velocity = vector_of(r); }},
+    Field<W>{{.name = "wall.spin",
+              .kind = Kind::quantities,
+              .dimension = spin,
+              .default_text = "0 0 0",
+              .count = 3,
+              .meaning = "angular velocity about wall.centre"},
+             [](W& w, const R& r) { w.wall.motion.spin = vector_of(r); }},
+    Field<W>{{.name = "wall.centre",
+              .kind = Kind::quantities,
+              .dimension = dimension::length,
+              .default_text = "0 0 0",
+              .count = 3,
+              .meaning = "that the wall turns about and torques are taken about; moves along"},
+             [](W& w, const R& r) { w.wall.motion.centre = vector_of(r); }},
+    Field<W>{{.name = "wall.starts",
+              .dimension = dimension::time,
+              .range = at_least(0),
+              .meaning = "when the wall begins to move, at once if not given"},
+             [](W& w, const R& r) { w.wall.motion.start = r.number; }},
+    Field<W>{{.name = "wall.stops",
+              .dimension = dimension::time,
+              .range = more_than(0),
+              .meaning = "when it stands still again"},
+             [](W& w, const R& r) { w.wall.motion.stop = r.number; }},
+    Field<W>{{.name = "wall.load",
+              .dimension = dimension::force,
+              .range = more_than(0),
+              .meaning = "a weight that presses the plane along its normal; it gives way and follows"},
+             [](W& w, const R& r) { w.wall.load = r.number; },
+             false,
+             "plane"},
+    Field<W>{{.name = "wall.mass",
+              .dimension = dimension::mass,
+              .range = more_than(0),
+              .meaning = "of a plane with a load"},
+             [](W& w, const R& r) { w.wall.mass = r.number; },
+             false,
+             "plane"},
+    Field<W>{
+        {.name = "wall.name",
+         .kind = Kind::text,
+         .meaning = "in walls-0.csv and the summary, the same for all parts of a tool; wall-K if not given"},
+        [](W& w, const R& r) { w.name = r.word; }},
 };
 
 using S = ImpactScene;
@@ -201,6 +277,12 @@ constexpr std::array scene{
               .range = {1, 1e6, false, false},
               .meaning = "of the curve, about"},
              [](S& s, const R& r) { s.rows = static_cast<int>(r.whole); }},
+    Field<S>{{.name = "output.frames",
+              .kind = Kind::whole_number,
+              .default_text = "0",
+              .range = {0, 1e5, false, false},
+              .meaning = "pictures of the particles for ParaView, evenly over the run"},
+             [](S& s, const R& r) { s.frames = static_cast<int>(r.whole); }},
 };
 // clang-format on
 
@@ -208,6 +290,7 @@ constexpr std::array scene{
 
 std::span<const Field<ImpactMaterial>> material_fields() { return materials; }
 std::span<const Field<ParticleEntry>> particle_fields() { return particles; }
+std::span<const Field<SpheresEntry>> spheres_fields() { return spheres; }
 std::span<const Field<WallEntry>> wall_fields() { return walls; }
 std::span<const Field<ImpactScene>> scene_fields() { return scene; }
 

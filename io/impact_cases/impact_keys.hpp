@@ -26,12 +26,18 @@ struct ParticleEntry {
 };
 struct WallEntry {
   ImpactWall wall;
-  std::string kind, material;
+  std::string kind, material, name;
+};
+/// [spheres]: many particles at once, from a file.
+struct SpheresEntry {
+  std::string file, material;
+  Vec3 velocity, spin;  ///< m/s, rad/s
 };
 
 std::span<const Field<ImpactMaterial>> material_fields();  ///< [materials.NAME]
 std::span<const Field<ParticleEntry>> particle_fields();   ///< [[particle]]
 std::span<const Field<WallEntry>> wall_fields();           ///< [[wall]]
+std::span<const Field<SpheresEntry>> spheres_fields();     ///< [spheres]
 std::span<const Field<ImpactScene>> scene_fields();        ///< [contact], [scene], [time], [output]
 
 }  // namespace breccia

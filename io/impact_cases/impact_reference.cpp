@@ -34,6 +34,7 @@ std::string impact_reference() {
   add_fields(text, scene_fields(), "[", "]");
   add_fields(text, material_fields(), "[", ".NAME]");
   add_fields(text, particle_fields(), "[[", "]]");
+  add_fields(text, spheres_fields(), "[", "]");
   add_fields(text, wall_fields(), "[[", "]]");
   return text;
 }

@@ -4,6 +4,7 @@ from .curves import draw_curves
 from .energy import draw_energy
 from .envelope import draw_envelope
 from .errors import BadInput, CannotDraw, FileTrouble
+from .grains import draw_grains, is_impact
 from .layouts import draw_layouts
 from .scaling import draw_scaling
 from .series import read_series

@@ -93,7 +93,7 @@ class Examples(unittest.TestCase):
         tree = tomllib.loads(text)
         if "source" in tree:  # a preset has the keys of the material at top level
             tree = {"material": {word: value for word, value in tree.items() if word != "source"}}
-        program = "impact" if "particle" in tree else "ucs"
+        program = "impact" if {"particle", "spheres", "wall"} & set(tree) else "ucs"
         for name in flat(tree):
             name = re.sub(r"^material\.at\.(?!confinement)", "material.", name)
             name = re.sub(r"^materials\.\w+", "materials", name)
