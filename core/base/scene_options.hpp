@@ -23,8 +23,9 @@ enum class ScatterKind { atomic, private_sums, gather };
 
 /// Which particles the loading holds. ends: layers at both ends. strips: two strips along the
 /// lateral surface of a disc on edge. halves: the two halves of the lateral surface and the end
-/// layers with them, a direct shear box.
-enum class Support { ends, strips, halves };
+/// layers with them, a direct shear box. vice: the lowest layer, and the two ends along x up to
+/// half the height.
+enum class Support { ends, strips, halves, vice };
 
 /// How the dashpots of bonds and contacts enter the step: docs/model.md, "Time step and mass
 /// scaling". explicit_: c_n as it is; capped and summed hold back those that are too strong for the

@@ -39,6 +39,10 @@ struct Holder {
                                         at_lateral_surface(*body, Space::three_d, x, s.radius, mean_radius))
                    ? side
                    : free_part;
+      case Support::vice:
+        return x.z < -edge || (x.z < 0.0 && std::abs(x.x) > 0.5 * body->diameter - 1.5 * mean_radius)
+                   ? lower_part
+                   : free_part;
     }
     return free_part;
   }
@@ -219,7 +223,8 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
       a.lateral.push_back(static_cast<Row>(row));
   }
   if (a.planes) a.layer = 0.0;
-  if (!a.planes && (p.free == 0 || a.first_top == p.free || a.first_top == n))
+  const bool has_top = rule.grip != Support::vice;
+  if (!a.planes && (p.free == 0 || a.first_top == p.free || (has_top && a.first_top == n)))
     fail<BadInput>(
         "{}: no sphere between or within the {} ({:.3g} mean radii) of a body {} m long; "
         "check specimen.height, specimen.diameter and specimen.axis{}",

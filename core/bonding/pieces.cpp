@@ -40,7 +40,7 @@ std::vector<char> reach_across(const Pieces& pieces, const Assembly& a) {
   std::vector<char> lower(pieces.sizes.size()), upper(lower), both(lower);
   for (std::size_t row = a.particles.free; row < a.particles.size; ++row)
     (row < a.first_top ? lower : upper)[pieces.of[row]] = 1;
-  for (std::size_t k = 0; k < both.size(); ++k) both[k] = lower[k] && upper[k];
+  for (std::size_t k = 0; k < both.size(); ++k) both[k] = lower[k] && (upper[k] || a.grip == Support::vice);
   return both;
 }
 

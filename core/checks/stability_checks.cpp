@@ -91,11 +91,14 @@ double energy_of_layers(const Platens& platens) {
   return 0.5 * twice;
 }
 
-/// J, of platens and pressure since the last look. The pressure on a particle hardly changes from
-/// one look to the next, whatever the particle does meanwhile.
+/// J, that platens and a tool have done; of the tool's some is friction on its own face.
+double driven_work(const World& w) { return w.platens.work + w.tool.work; }
+
+/// J, of what is driven and of pressure since the last look. The pressure on a particle hardly
+/// changes from one look to the next, whatever the particle does meanwhile.
 double work_since(StabilityChecks& g, const World& w) {
-  double work = w.platens.work - g.platen_work;
-  g.platen_work = w.platens.work;
+  const double work = driven_work(w) - g.platen_work;
+  g.platen_work = driven_work(w);
   const Confinement& c = w.confinement;
   std::vector<double> blocks;
   return work + sum_listed(w.partition, c.rows, 1, blocks, [&](std::size_t k) {
@@ -231,7 +234,7 @@ StabilityChecks make_stability_checks(const World& w) {
   std::vector<double> blocks;
   g.noise = sum_pairs(w.partition, b, w.options.threads, blocks,
                       [&](std::size_t k) { return 0.5 * b.stiffness[k] * rounding * rounding; });
-  g.platen_work = w.platens.work;
+  g.platen_work = driven_work(w);
   for (const Row row : w.confinement.rows) g.lateral.push_back(w.particles.position[row]);
   g.push = w.confinement.force;
   return g;

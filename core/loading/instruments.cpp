@@ -1,5 +1,7 @@
 #include "core/loading/instruments.hpp"
 
+#include <cmath>
+
 namespace breccia {
 namespace {
 
@@ -17,7 +19,7 @@ Instruments make_instruments(const World& w, const Assembly& a, const LoadTest& 
   in.sign = test.loading == Loading::tension ? -1.0 : 1.0;
   in.lateral_directions = a.space == Space::two_d ? 1 : 2;
   if (a.grip == Support::ends) in.axial = axial_gauge(a);
-  if (a.grip != Support::halves) in.lateral = lateral_gauge(a, left_out);
+  if (a.grip != Support::halves && a.grip != Support::vice) in.lateral = lateral_gauge(a, left_out);
   in.zeros = zeros ? *zeros
                    : Datum{gauge_now(w, in.axial), gauge_now(w, in.lateral), approach(w.platens),
                            shear_travel(w.platens)};
@@ -30,6 +32,16 @@ StepReading read(World& w, const Instruments& in) {
   StepReading r;
   r.time = w.time;
   r.confining_stress = w.confinement.acting;
+  if (in.loading == Loading::cutting) {
+    // the strain is the way over the block's width, stresses are forces over the area of the cut
+    const Tool& tool = w.tool;
+    r.axial_strain = r.platen_strain = tool.travel / w.body.diameter;
+    r.axial_stress = -tool.load.x / tool.area;  // (B120)
+    r.confining_stress = tool.load.z / tool.area;
+    r.radial_strain = r.volumetric_strain = CurveRow::untracked;
+    r.mismatch = std::abs(tool.load.x + w.platens.force[0].x) / tool.area;
+    return r;
+  }
   if (in.loading == Loading::shear) {
     // of a shear box: the strain is the shift over its width, the stress is that of the band
     r.axial_strain = r.platen_strain = (shear_travel(w.platens) - in.zeros.shear) / w.body.diameter;
@@ -54,6 +66,7 @@ StepReading read(World& w, const Instruments& in) {
 }
 
 double travel(const World& w, const Instruments& in) {
+  if (in.loading == Loading::cutting) return w.tool.travel;
   return in.loading == Loading::shear ? shear_travel(w.platens) - in.zeros.shear
                                       : in.sign * (approach(w.platens) - in.zeros.approach);
 }

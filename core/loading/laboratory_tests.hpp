@@ -42,7 +42,7 @@ struct LaboratoryTest {
   StrengthLine line = StrengthLine::none;
 };
 
-inline constexpr std::array<LaboratoryTest, 8> laboratory_tests{{
+inline constexpr std::array<LaboratoryTest, 9> laboratory_tests{{
     {.name = "ucs",
      .about = "Unconfined compression of a cylinder between two platens.",
      .box = true,
@@ -92,6 +92,14 @@ inline constexpr std::array<LaboratoryTest, 8> laboratory_tests{{
      .always_rough = true,
      .uniform_strain = false,
      .line = StrengthLine::shear},
+    {.name = "cut",
+     .about = "Cutting: a rigid tool scrapes the top of a block that is held in a vice.",
+     .loading = Loading::cutting,
+     .support = Support::vice,
+     .cylinder = false,
+     .box = true,
+     .always_rough = true,
+     .uniform_strain = false},
     {.name = "biaxial",
      .about = "Biaxial compression of a rectangle of discs: one run per confinement.",
      .cylinder = false,

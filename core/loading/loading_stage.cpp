@@ -32,6 +32,7 @@ void follow(Run& run, const CurveRow& row) {
 
 /// True when the stress has come down from its peak by the fraction asked for. (B70)
 bool has_dropped(Run& run, const CurveRow& row) {
+  if (run.test.loading == Loading::cutting) return false;  // each chip is a drop
   double& peak = run.state.peak;
   const double strength = run.test.loading == Loading::shear ? row.axial_stress_Pa : deviator(row);
   peak = std::max(peak, strength);
@@ -56,6 +57,10 @@ void set_speed(World& w, Loading loading, double speed) {
     w.platens.velocity[1].x = speed;
     return;
   }
+  if (loading == Loading::cutting) {
+    w.tool.speed = speed;
+    return;
+  }
   const double inward = loading == Loading::tension ? -speed : speed;
   w.platens.velocity[0].z = inward;
   w.platens.velocity[1].z = -inward;
@@ -68,8 +73,9 @@ void load(Run& run) {
   const LoadTest& test = run.test;
   w.platens.rough = w.options.rough_platens;  // (B110): stage 1 left the ends free
   const Instruments in = begin_or_go_on(run, Stage::loading);
-  const double width = test.loading == Loading::shear ? w.body.diameter : run.assembly.length();
-  const double duration = test.stop_strain * width / (2.0 * test.platen_speed);
+  const bool cuts = test.loading == Loading::cutting;
+  const double width = test.loading == Loading::shear || cuts ? w.body.diameter : run.assembly.length();
+  const double duration = test.stop_strain * width / ((cuts ? 1.0 : 2.0) * test.platen_speed);
   const double crossing = crossing_time(w, run.assembly);
   const double ramp = std::max(2.0 * crossing, 0.05 * duration);
   const double start = run.state.stage_start;

@@ -7,8 +7,9 @@
 namespace breccia {
 
 /// compression: platens towards each other. tension: apart. shear: the halves of a shear box along
-/// x, under `confinement` on its lid. hydrostatic: pressure alone, up to `confinement`.
-enum class Loading { compression, tension, shear, hydrostatic };
+/// x, under `confinement` on its lid. hydrostatic: pressure alone, up to `confinement`. cutting: a
+/// tool moves along x through the top of a block.
+enum class Loading { compression, tension, shear, hydrostatic, cutting };
 
 struct LoadTest {
   Loading loading = Loading::compression;

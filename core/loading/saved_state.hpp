@@ -24,6 +24,8 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("platens_travel", w.platens.travel);
   visit("platens_force", w.platens.force);
   visit("platens_work", w.platens.work);
+  visit("tool_travel", w.tool.travel);
+  visit("tool_work", w.tool.work);
   visit("confinement_pressure", w.confinement.pressure);
   visit("confinement_grown", w.confinement.grown);
 

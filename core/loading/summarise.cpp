@@ -232,6 +232,29 @@ void forget_the_peak(const LoadResult& result, RunSummary& run) {
   run.bulk_modulus_Pa = bulk_modulus(result.record.rows);
 }
 
+/// A cut has no strength; the answer is the forces on the tool and what a volume costs.
+void read_cut(const World& w, const LoadResult& result, RunSummary& run) {
+  run.peak_reached = false;
+  run.peak_stress_Pa = run.peak_deviator_Pa = run.strain_at_peak = run.kinetic_ratio =
+      run.platen_mismatch = {};
+  run.crack_initiation_stress_Pa = run.crack_damage_stress_Pa = {};
+  const auto& rows = result.record.rows;
+  if (rows.empty()) return;
+  const double way = rows.back().platen_strain;
+  double along = 0, across = 0, count = 0, largest = 0, energy = 0, before = 0;
+  for (const CurveRow& row : rows) {
+    largest = std::max(largest, row.axial_stress_Pa);
+    energy += row.axial_stress_Pa * (row.platen_strain - before);
+    before = row.platen_strain;
+    if (row.platen_strain < 0.5 * way) continue;
+    along += row.axial_stress_Pa, across += row.confining_stress_Pa, ++count;
+  }
+  run.cutting_force_N = w.tool.area * along / count;
+  run.thrust_N = w.tool.area * across / count;
+  run.largest_cutting_force_N = w.tool.area * largest;
+  run.specific_energy_J_per_m3 = energy / way;  // (B120)
+}
+
 }  // namespace
 
 RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly& a, const LoadTest& load,
@@ -295,6 +318,10 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
   if (w.cracks.missed > 0)
     run.warnings.push_back(
         fmt::format("{} bonds broke in steps that broke too many at once to record each", w.cracks.missed));
+  if (load.loading == Loading::cutting) {
+    read_cut(w, result, run);
+    return run;
+  }
   if (load.loading == Loading::hydrostatic) {
     forget_the_peak(result, run);
     return run;

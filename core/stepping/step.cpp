@@ -176,6 +176,11 @@ void hold_ends(World& w) {
   push_back(w.end_walls, w.platens, w.particles, w.partition, w.step, w.dt, w.options.threads);
 }
 
+void cut(World& w) {
+  const Lap lap(w.phases, Phase::platens);
+  press_tool(w.tool, w.particles, w.partition, w.step, w.dt);
+}
+
 void let_loose_drift(World& w) {
   const Lap lap(w.phases, Phase::confinement);
   const double impedance = std::sqrt(w.material.young_modulus * w.material.density);
@@ -228,6 +233,7 @@ void advance(World& w) {
   gather_bond_forces(w);
   contact_forces(w);
   hold_ends(w);
+  cut(w);
   restrain_laterally(w);
   move_platens(w);
   let_loose_drift(w);

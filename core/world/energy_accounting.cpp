@@ -162,7 +162,10 @@ void account_motion(World& w) {
   const OuterWork behind = near.empty() ? OuterWork{} : work_of_listed(w, near, [&](std::size_t k) {
     return Vec3{0.0, 0.0, w.end_walls.force[k]};
   });
-  ledger.walls.add(behind.over_this, behind.over_next);
+  OuterWork walls = behind;
+  if (!w.tool.rows.empty())
+    walls += work_of_listed(w, w.tool.rows, [&](std::size_t k) { return w.tool.force[k]; });
+  ledger.walls.add(walls.over_this, walls.over_next);
   const Confinement& c = w.confinement;
   if (c.rigid) return;
   OuterWork fluid;

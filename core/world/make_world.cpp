@@ -82,6 +82,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   if (options.precision == Precision::mixed) w.single_bonds = single_bonds(w.bonds);
   w.platens = make_platens(assembly, w.particles, options.rough_platens, material.young_modulus);
   w.end_walls = make_end_walls(assembly, w.young, w.alpha);
+  w.tool = make_tool(options.cutting, assembly, w.young, w.alpha);
   w.confinement = make_confinement(assembly, options.skin_weights, options.rigid_sides);
   // (B97)
   w.neighbour_list = make_neighbour_list(assembly, options.new_contacts, 0.2 * assembly.mean_radius);

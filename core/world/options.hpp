@@ -2,6 +2,7 @@
 #pragma once
 #include "core/base/scene_options.hpp"
 #include "core/bonding/assembly.hpp"
+#include "core/boundary/tool.hpp"
 #include "kernels/loops/bond_pass.hpp"
 #include "kernels/loops/integrate.hpp"
 #include "kernels/loops/scatter.hpp"
@@ -14,6 +15,7 @@ struct WorldOptions {
   bool new_contacts = true;
   int search_every = 0;  ///< steps between searches for contacts; 0: when the skin is used up
   bool rough_platens = true;
+  Cutting cutting;           ///< of a tool, where there is one
   bool rigid_sides = false;  ///< the lateral surface cannot move sideways
   SkinWeights skin_weights = SkinWeights::radius;
   bool current_surface = false;  ///< pressure acts on the lateral surface as it is, not as it was

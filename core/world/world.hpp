@@ -8,6 +8,7 @@
 #include "core/boundary/contact_search.hpp"
 #include "core/boundary/end_walls.hpp"
 #include "core/boundary/platens_and_confinement.hpp"
+#include "core/boundary/tool.hpp"
 #include "core/elastic/area_factor.hpp"
 #include "core/elastic/dashpots.hpp"
 #include "core/elastic/mass_scaling.hpp"
@@ -51,6 +52,7 @@ struct World {
   Platens platens;
   Confinement confinement;
   EndWalls end_walls;
+  Tool tool;
   NeighbourList neighbour_list;
   ScatterPlan bond_plan, contact_plan;
   CrackRecord cracks;

@@ -26,6 +26,8 @@ std::string_view held_bodies(Support support) {
       return "the two strips";
     case Support::halves:
       return "the two halves of the shear box";
+    case Support::vice:
+      return "the vice and the rest";
   }
   return "?";
 }

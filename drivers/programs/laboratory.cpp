@@ -208,7 +208,10 @@ void note_specimen(const ReadySpecimen& ready, RunSummary& run) {
 
 std::string result_line(const Case& c, std::size_t k, const LaboratoryTest& test, const RunSummary& run) {
   const std::string what =
-      !test.strain_ends_it
+      run.cutting_force_N
+          ? fmt::format("cutting force {:.4g} N, thrust {:.4g} N, {:.3g} MJ/m^3", *run.cutting_force_N,
+                        run.thrust_N.value_or(0), run.specific_energy_J_per_m3.value_or(0) * 1e-6)
+      : !test.strain_ends_it
           ? fmt::format("bulk modulus {:.2f} GPa", run.bulk_modulus_Pa.value_or(0) * 1e-9)
           : fmt::format("peak {:.2f} MPa at strain {:.5f}", run.peak_stress_Pa.value_or(0) * 1e-6,
                         run.strain_at_peak.value_or(0));

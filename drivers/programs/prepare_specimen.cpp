@@ -196,8 +196,8 @@ ReadySpecimen make_ready(const Case& c, const LaboratoryTest& test, const Featur
     check_lateral_surface(ends, acts_sideways(c, test), specimen.source, ready.warnings);
     find_factor(ends, c.bonds.alpha_rule, c.test.rough_platens);
     ready.assembly = std::move(ends);
-    if (test.support == Support::halves) {
-      ready.assembly = bonded(specimen, body, Support::halves);
+    if (test.support != Support::ends) {
+      ready.assembly = bonded(specimen, body, test.support);
       leave_out_loose(ready.assembly, contacts, threads);
     }
     say_warnings(ready.warnings, progress);

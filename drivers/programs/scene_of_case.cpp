@@ -1,5 +1,7 @@
 #include "drivers/programs/scene_of_case.hpp"
 
+#include <numbers>
+
 #include "core/bonding/compressive_limits.hpp"
 
 namespace breccia {
@@ -41,6 +43,11 @@ WorldOptions world_options(const Case& c, const LaboratoryTest& test, const Feat
   o.search_every = c.search_every.value_or(0);
   o.rough_platens = test.always_rough || c.test.rough_platens;
   o.rigid_sides = test.rigid_sides;
+  if (test.loading == Loading::cutting) {
+    const double degree = std::numbers::pi / 180.0;
+    o.cutting = {c.test.cut_depth.value_or(0.0), c.test.cut_width.value_or(0.0), degree * c.test.rake_angle,
+                 degree * c.test.clearance_angle, c.test.tool_friction};
+  }
   o.skin_weights = c.test.skin_weights;
   o.current_surface = c.test.current_surface;
   o.cracks = c.cracks;

@@ -58,6 +58,11 @@ struct TestCase {
   std::optional<double> strip_width;  ///< m
   std::optional<double> strip_angle;  ///< degrees, instead
   std::optional<double> strip_depth;  ///< m
+  std::optional<double> cut_depth;    ///< m
+  std::optional<double> cut_width;    ///< m; absent: across the block
+  double rake_angle = 0;              ///< degrees
+  double clearance_angle = 10;        ///< degrees
+  double tool_friction = 0.3;
 };
 
 struct FeatureCase {  ///< what the scene may leave out

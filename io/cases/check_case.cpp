@@ -60,14 +60,17 @@ struct Checks : CaseLaid {
     if (test && !test->three_d)
       no("specimen.dimensions", fmt::format("a {} test has two; valid: 2{}", test->name, elsewhere("three")));
     if (!test || is_across()) return;
-    const bool boxes = test->box;
-    if (disc || (box && !boxes)) {
+    const bool boxes = test->box, cylinders = test->cylinder;
+    if (disc || (box && !boxes) || (!disc && !box && !cylinders)) {
       const std::string text = fmt::format("{}: specimen.shape \"{}\" does not go with breccia-{}; valid: {}",
                                            place("specimen.shape"),
                                            disc  ? "disc"
                                            : box ? "box"
                                                  : "cylinder",
-                                           test->name, boxes ? "\"cylinder\", \"box\"" : "\"cylinder\"");
+                                           test->name,
+                                           !cylinders ? "\"box\""
+                                           : boxes    ? "\"cylinder\", \"box\""
+                                                      : "\"cylinder\"");
       throw BadInput(text);
     }
   }
@@ -153,6 +156,24 @@ struct Checks : CaseLaid {
         no("test.confinement",
            fmt::format("{}: an unconfined test has none; leave it out, or use breccia-triaxial",
                        format_quantity(p, dimension::stress)));
+  }
+
+  void tool() const {
+    if (test->loading != Loading::cutting) return;
+    const Body& body = c.specimen.body;
+    const auto length = [](double value) { return format_quantity(value, dimension::length); };
+    if (!c.test.cut_depth) no("test.cut_depth", "missing; give how deep the tool cuts, \"5 mm\"");
+    if (*c.test.cut_depth > 0.5 * body.height)
+      no("test.cut_depth", fmt::format("{} is more than half the block's height, {}",
+                                       length(*c.test.cut_depth), length(body.height)));
+    if (c.test.cut_width && *c.test.cut_width > body.depth)
+      no("test.cut_width",
+         fmt::format("{} is more than the block's depth, {}; leave it out for a tool across all of it",
+                     length(*c.test.cut_width), length(body.depth)));
+    if (c.test.rake_angle + c.test.clearance_angle > 80)
+      no("test.rake_angle",
+         fmt::format("{:g} and test.clearance_angle {:g} leave a tool of less than 10 degrees",
+                     c.test.rake_angle, c.test.clearance_angle));
   }
 
   void strips() const {
@@ -266,6 +287,7 @@ void check_test(const CaseLaid& laid) {
   const Checks checks{laid};
   checks.loading();
   checks.strips();
+  checks.tool();
   checks.idle_keys();
 }
 

@@ -82,6 +82,10 @@ void for_each_rare_field(Run& run, Visit&& visit) {
   visit("bulk_modulus_Pa", run.bulk_modulus_Pa);
   visit("cycles", run.cycles);
   visit("confining_stress_at_peak_Pa", run.confining_stress_at_peak_Pa);
+  visit("cutting_force_N", run.cutting_force_N);
+  visit("thrust_N", run.thrust_N);
+  visit("largest_cutting_force_N", run.largest_cutting_force_N);
+  visit("specific_energy_J_per_m3", run.specific_energy_J_per_m3);
   visit("hydrostatic_branch", run.hydrostatic_branch);
   visit("limits_raised_Pa", run.limits_raised_Pa);
   visit("stage1_broken", run.stage1_broken);

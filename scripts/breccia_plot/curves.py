@@ -10,10 +10,11 @@ ORDINATE = {
     "tension": "axial stress, tension positive (MPa)",
     "shear": "shear stress (MPa)",
     "hydrostatic": "mean stress (MPa)",
-    "impact": "axial stress (MPa)",
+    "cut": "cutting force over area of cut (MPa)",
 }
-ONE_STRAIN = {"bts", "usc", "hydrostatic", "shear"}  # nothing to draw over a radial strain
-TITLE = {"bts": "Load and travel", "hydrostatic": "Pressure and volume", "shear": "Shear stress and displacement"}
+ONE_STRAIN = {"bts", "usc", "hydrostatic", "shear", "cut"}  # nothing to draw over a radial strain
+TITLE = {"bts": "Load and travel", "hydrostatic": "Pressure and volume", "shear": "Shear stress and displacement",
+         "cut": "Force on the tool"}
 
 
 def draw_curves(series, path):
@@ -138,4 +139,4 @@ def before(x, y, gap=6):
     return [(x, y, 0, up * gap, "right", va) for up, va in ((1, "bottom"), (-1, "top"), (3, "bottom"), (-3, "top"))]
 
 
-BESIDE = {"usc": draw_lateral, "bts": draw_broken, "tension": draw_broken, "hydrostatic": draw_broken}
+BESIDE = {"usc": draw_lateral, "bts": draw_broken, "tension": draw_broken, "hydrostatic": draw_broken, "cut": draw_broken}

@@ -19,6 +19,7 @@ TESTS = {
     "tension": "Direct tension",
     "shear": "Direct shear",
     "biaxial": "Biaxial compression (2-D)",
+    "cut": "Cutting",
     "impact": "Impact",
 }
 COMPRESSION_TO_FAILURE = {"ucs", "triaxial", "biaxial", ""}
@@ -81,6 +82,8 @@ class Series:
             return "shear displacement over diameter"
         if self.test == "bts":
             return "platen travel over diameter"
+        if self.test == "cut":
+            return "way of the tool over the block's width"
         platen = all(run.platen_strain for run in self.with_curves())
         return "axial strain" + (" (of the platens)" if platen else "")
 
@@ -161,7 +164,7 @@ def complete(run, test):
     if not run.curve:
         return
     axial, confining = run.curve["axial_stress_Pa"], np.nan_to_num(run.curve["confining_stress_Pa"])
-    if test in ("bts", "tension", "shear"):
+    if test in ("bts", "tension", "shear", "cut"):
         run.curve["stress_Pa"] = axial
     elif test == "hydrostatic":
         run.curve["stress_Pa"] = (axial + 2 * confining) / 3

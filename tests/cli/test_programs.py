@@ -21,6 +21,8 @@ scatter = "gather"
 frames = 0
 """
 DISC = CYLINDER.replace('"cylinder"', '"disc"').replace('height = "100 mm"', 'height = "20 mm"').replace("concrete", "cement")
+BLOCK = CYLINDER.replace('"cylinder"', '"box"').replace('"100 mm"', '"40 mm"\ndepth = "30 mm"').replace(
+    "[run]", '[test]\ncut_depth = "8 mm"\nrake_angle = 20\n[run]')
 PLANE = CYLINDER.replace('shape = "cylinder"', "dimensions = 2").replace("concrete", "sandstone-discs")
 
 ALWAYS = """confinement_Pa peak_stress_Pa peak_deviator_Pa peak_reached strain_at_peak young_modulus_Pa young_modulus_50_Pa
@@ -43,6 +45,9 @@ PROGRAMS = {
     "shear": (CYLINDER, {"test.stop_strain": 0.003, "test.confinement": '"1 MPa"'}, [], ("peak_stress_Pa", 2e6, 9e6), "fc18b4f8cf982afd"),
     "bts": (DISC, {"test.stop_strain": 0.003}, ["strip_corrected_strength_Pa", "first_cracks"],
             ("tensile_strength_Pa", 1e6, 6e6), "159ba4057fbb063b"),
+    "cut": (BLOCK, {"test.stop_strain": 0.1, "test.platen_speed": '"2 m/s"'},
+            ["cutting_force_N", "thrust_N", "largest_cutting_force_N", "specific_energy_J_per_m3"],
+            ("specific_energy_J_per_m3", 1e5, 1e8), "134ec262ecab19a5"),
     "biaxial": (PLANE, {"test.stop_strain": 0.002, "test.confinement": '["1 MPa"]'}, [], ("peak_stress_Pa", 10e6, 100e6), "f6fe77622741ed0b"),
 }
 PORTABLE = os.environ | {"BRECCIA_INSTRUCTION_SET": "x86-64"}
@@ -66,7 +71,7 @@ class Programs(ProgramTest):
         self.assertEqual(missing, [])
         for name, value in result.items():  # SI: a number with a dimension says which
             if isinstance(value, float) and abs(value) > 1e3:
-                self.assertRegex(name, "_(Pa|per_s|s)$")
+                self.assertRegex(name, "_(Pa|per_s|s|N|per_m3)$")
         self.assertTrue(low < result[key] < high, f"{key} {result[key]:.4g} is not between {low:.3g} and {high:.3g}")
         self.assertEqual(set(result["phases_s"]) >= {"bonds", "integrate", "platens"}, True)
         self.assertEqual(result["state_hash"], state,

@@ -277,6 +277,19 @@ class Impossible(Case):
         self.refused("ucs", UCS.replace(preset, preset + '\nyield_stress = "40 MPa"') + "[features]\nplasticity = false\n",
                      "material.yield_stress: with features.plasticity = false nothing yields")
 
+    def test_of_cutting(self):
+        block = UCS.replace('file = "specimen.csv"', 'pack = { spheres = 300 }\nshape = "box"\ndepth = "30 mm"').replace(
+            '"100 mm"', '"40 mm"')
+        cut = lambda *lines: block.replace("[test]\nstop_strain = 0.006", "\n".join(["[test]", *lines]))
+        self.refused("cut", cut(), "test.cut_depth: missing")
+        self.refused("cut", cut('cut_depth = "30 mm"'), "test.cut_depth: ", "half the block's height")
+        self.refused("cut", cut('cut_depth = "5 mm"', 'cut_width = "31 mm"'), "test.cut_width: ", "the block's depth")
+        self.refused("cut", cut('cut_depth = "5 mm"', "rake_angle = 50", "clearance_angle = 40"), "test.rake_angle: 50 and")
+        self.refused("cut", cut('cut_depth = "5 mm"', "stop_after_peak = 0.3"), "test.stop_after_peak: this test does not end with a peak")
+        self.refused("cut", cut('cut_depth = "5 mm"', 'platens = "smooth"'), "test.platens: ")
+        self.refused("cut", cut('cut_depth = "5 mm"').replace('"box"', '"cylinder"').replace('depth = "30 mm"\n', ""), 'specimen.shape "cylinder" does not go with breccia-cut; valid: "box"')
+        self.refused("ucs", test('cut_depth = "5 mm"'), "test.cut_depth: only breccia-cut has a tool")
+
     def test_resolved_cases_stay_accepted(self):
         self.go("ucs", test('platen_speed = "0.4 m/s"\nstop_strain = 0.001'))
         shutil.copy(self.out / "case.toml", self.work / "again.toml")

@@ -643,7 +643,7 @@ TEST_CASE("case: keys that a test does not know, and bodies that it does not tes
   CHECK(load(good, "bts").test.rough_platens == false);
   CHECK(load(good + "[test]\nplatens = \"rough\"\n", "bts").test.rough_platens);
   says(complaint(good + "[test]\nconfinement = 1\nplatens = \"rough\"\n", "shear"),
-       "c.toml:9: test.platens: the halves of a shear box hold every direction; leave it out");
+       "c.toml:9: test.platens: this test holds every direction; leave it out");
   for (const char* test : {"hydrostatic", "shear"}) {
     says(complaint(good, test), "c.toml: test.confinement: missing; give the ");
     says(complaint(good + "[test]\nconfinement = [\"1 MPa\", 0]\n", test),
