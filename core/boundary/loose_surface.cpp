@@ -1,5 +1,6 @@
 #include "core/boundary/loose_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -32,7 +33,7 @@ void let_loose_drift(Confinement& c, ParticleTable& p, const Partition& partitio
   c.flying.clear();
   c.brake.clear();
   if (c.rigid || c.pressure == 0.0) return;
-  const double most = 0.1 * c.pressure / around.impedance;  // m/s
+  const double most = 0.1 * std::max(c.pressure, c.pressure_x) / around.impedance;  // m/s
   const auto is_held = [&](Row row) { return row >= p.free && around.rough; };
   for_owned_entries(partition, c.rows, [&](std::size_t k) {
     const Row row = c.rows[k];
@@ -51,15 +52,6 @@ void let_loose_drift(Confinement& c, ParticleTable& p, const Partition& partitio
     c.flying.push_back(row);
     c.brake.push_back(*force);
   }
-}
-
-std::vector<Gid> drifting(const Confinement& c, const ParticleTable& p, const Partition& partition) {
-  std::vector<Gid> mine;
-  for_owned_entries(partition, c.rows, [&](std::size_t k) {
-    if (c.drifts[k]) mine.push_back(p.gid[c.rows[k]]);
-  });
-  if (partition.ranks.alone()) return mine;
-  return gather_elements_everywhere(partition.ranks, std::span<const Gid>(mine));
 }
 
 }  // namespace breccia

@@ -20,8 +20,4 @@ struct Surroundings {
 void let_loose_drift(Confinement& confinement, ParticleTable& particles, const Partition& partition,
                      const Surroundings& around);
 
-/// Ids of those that drift now, the same on every rank.
-std::vector<Gid> drifting(const Confinement& confinement, const ParticleTable& particles,
-                          const Partition& partition);
-
 }  // namespace breccia

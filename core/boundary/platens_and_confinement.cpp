@@ -76,10 +76,41 @@ void drive_platens(Platens& platens, const ParticleTable& particles, const Parti
   }
 }
 
+namespace {
+
+/// Of a box each of the four faces has its nominal surface, shared by the spheres that touch it as
+/// pi r^2. (B121)
+void set_face_weights(Confinement& c, const Assembly& a) {
+  const auto weights = [&](double Vec3::*normal, double width, double surface) {
+    std::vector<double> weight(c.rows.size());
+    for (const double side : {-1.0, 1.0}) {
+      double sum = 0.0;
+      std::vector<std::size_t> touching;
+      for (std::size_t k = 0; k < c.rows.size(); ++k) {
+        const double r = a.particles.radius[c.rows[k]], reach = r + 0.3 * a.mean_radius;
+        if (side * (a.particles.position[c.rows[k]].*normal) + reach <= 0.5 * width) continue;
+        touching.push_back(k);
+        sum += std::numbers::pi * r * r;
+      }
+      for (const std::size_t k : touching) {
+        const double r = a.particles.radius[c.rows[k]];
+        weight[k] += side * std::numbers::pi * r * r * surface / sum;
+      }
+    }
+    return weight;
+  };
+  const Body& body = a.body;
+  c.weight_x = weights(&Vec3::x, body.diameter, body.depth * body.height);
+  c.weight = weights(&Vec3::y, body.depth, body.diameter * body.height);
+}
+
+}  // namespace
+
 Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid) {
   Confinement c;
   c.rigid = rigid;
   c.plane = a.space == Space::two_d;
+  c.prism = a.body.shape == Shape::box && !c.plane && !rigid;
   c.rows = a.lateral;
   c.surface = a.lateral_surface();
   c.height = a.length();
@@ -87,6 +118,10 @@ Confinement make_confinement(const Assembly& a, SkinWeights weights, bool rigid)
   c.drifts.assign(c.rows.size(), 0);
   if (weights == SkinWeights::voronoi) {
     c.weight = lateral_areas(a.particles, c.rows, a.body, a.space);
+    return c;
+  }
+  if (c.prism) {
+    set_face_weights(c, a);
     return c;
   }
   for (const Row row : c.rows) {
@@ -158,6 +193,63 @@ void press_sides(Confinement& c, ParticleTable& particles, const Partition& part
   });
 }
 
+/// Of forces along one direction on the pair of faces normal to it: the smallest a + b u + c z
+/// along it, u the other lateral direction, removes the net force and both moments. (B121)
+struct FaceSums {
+  double n = 0, u1 = 0, z1 = 0, u2 = 0, z2 = 0, uz = 0, net = 0, turn = 0, tilt = 0;
+  double inward = 0, side = 0, side_u = 0, side_z = 0;
+  FaceSums& operator+=(const FaceSums& o) {
+    n += o.n, u1 += o.u1, z1 += o.z1, u2 += o.u2, z2 += o.z2, uz += o.uz;
+    net += o.net, turn += o.turn, tilt += o.tilt;
+    inward += o.inward, side += o.side, side_u += o.side_u, side_z += o.side_z;
+    return *this;
+  }
+};
+
+/// A sphere that has been squeezed out past the other pair of faces by more than its radius has
+/// left the face: pressed on, it would be shot along that other face.
+bool has_left(const ParticleTable& p, Row row, double Vec3::*across) {
+  return std::abs(p.position[row].*across) > std::abs(p.reference_position[row].*across) + p.radius[row];
+}
+
+/// @param weight  m^2, of each row, positive on the face at the positive end
+/// @returns Pa, that acts
+double press_pair_of_faces(Confinement& c, ParticleTable& particles, const Partition& partition,
+                           double pressure, std::span<const double> weight, double Vec3::*normal,
+                           double Vec3::*across) {
+  const auto is_pressed = [&](std::size_t k) {
+    return weight[k] != 0.0 && !has_left(particles, c.rows[k], across);
+  };
+  const auto push = [&](std::size_t k) { return -pressure * c.grown * weight[k]; };
+  std::vector<FaceSums> blocks;
+  const FaceSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
+    if (!is_pressed(k)) return FaceSums{};
+    const Vec3& x = particles.position[c.rows[k]];
+    const double u = x.*across, f = push(k), side = weight[k] > 0.0 ? -1.0 : 1.0;
+    return FaceSums{1.0,   u,       x.z,      u * u, x.z * x.z, u * x.z,   f,
+                    u * f, x.z * f, side * f, side,  side * u,  side * x.z};
+  });
+  Eigen::Matrix3d gram;
+  gram << s.n, s.u1, s.z1, s.u1, s.u2, s.uz, s.z1, s.uz, s.z2;
+  const Eigen::Vector3d by = gram.ldlt().solve(Eigen::Vector3d{s.net, s.turn, s.tilt});
+  for_owned_entries(partition, c.rows, [&](std::size_t k) {
+    if (!is_pressed(k)) return;
+    const Vec3& x = particles.position[c.rows[k]];
+    const double f = push(k) - by[0] - by[1] * (x.*across) - by[2] * x.z;
+    c.force[k].*normal += f;
+    particles.force[c.rows[k]].*normal += f;
+  });
+  double surface = 0.0;
+  for (const double w : weight) surface += std::abs(w);
+  return (s.inward - by[0] * s.side - by[1] * s.side_u - by[2] * s.side_z) / (c.grown * surface);
+}
+
+void press_faces(Confinement& c, ParticleTable& particles, const Partition& partition) {
+  for_owned_entries(partition, c.rows, [&](std::size_t k) { c.force[k] = {}; });
+  press_pair_of_faces(c, particles, partition, c.pressure_x, c.weight_x, &Vec3::x, &Vec3::y);
+  c.acting = press_pair_of_faces(c, particles, partition, c.pressure, c.weight, &Vec3::y, &Vec3::x);
+}
+
 /// Of places, and of the radial forces that the pressure makes.
 struct SkinSums {
   double n = 0, x1 = 0, y1 = 0, z1 = 0, z2 = 0, xz = 0, yz = 0, r2 = 0;
@@ -201,6 +293,7 @@ void apply_confinement(Confinement& c, ParticleTable& particles, const Partition
   c.acting = 0.0;
   if (c.pressure == 0.0) return;
   if (c.plane) return press_sides(c, particles, partition);
+  if (c.prism) return press_faces(c, particles, partition);
   // (B72): radial forces leave a net force and moments about x and y: the smallest horizontal
   // correction a + b z + c (-y, x) that removes them and makes no moment about z
   std::vector<SkinSums> blocks;

@@ -50,20 +50,23 @@ void drive_platens(Platens& platens, const ParticleTable& particles, const Parti
 /// with weights w that add up to the nominal surface; or a rigid wall that lets it slide along the
 /// axis only.
 struct Confinement {
-  bool rigid = false;   ///< x and y of the lateral surface are fixed
-  bool plane = false;   ///< two dimensions: the lateral surface is two sides, normal to x
-  double pressure = 0;  ///< Pa, asked for now; of a rigid wall the mean reaction
-  double acting = 0;    ///< Pa, inward forces of this step over the nominal surface; of a rigid wall the same
-  double surface = 0;   ///< m^2, nominal
+  bool rigid = false;     ///< x and y of the lateral surface are fixed
+  bool plane = false;     ///< two dimensions: the lateral surface is two sides, normal to x
+  bool prism = false;     ///< a box: the lateral surface is four faces
+  double pressure = 0;    ///< Pa, asked for now; of a rigid wall the mean reaction
+  double pressure_x = 0;  ///< Pa, of a box on its faces normal to x; `pressure` on those normal to y
+  double acting = 0;   ///< Pa, inward forces of this step over the nominal surface; of a rigid wall the same
+  double surface = 0;  ///< m^2, nominal
   bool current = false;  ///< pressure acts on the surface as it is now
   double grown = 1;      ///< of the surface, by what it has become larger; 1 where it does not count
   double height = 0;     ///< m, of the specimen when it was made
   std::vector<Row> rows;
-  std::vector<double> weight;  ///< m^2
-  std::vector<Vec3> force;     ///< N, of this step
-  std::vector<char> drifts;    ///< nothing but the pressure acts on it in this step (B112)
-  std::vector<Row> flying;     ///< of this rank: others on which nothing acts, and that the fluid
-  std::vector<Vec3> brake;     ///< N, holds back in this step
+  std::vector<double> weight;    ///< m^2; of a box on a face normal to y, 0 where it is on none
+  std::vector<double> weight_x;  ///< m^2, of a box on a face normal to x
+  std::vector<Vec3> force;       ///< N, of this step
+  std::vector<char> drifts;      ///< nothing but the pressure acts on it in this step (B112)
+  std::vector<Row> flying;       ///< of this rank: others on which nothing acts, and that the fluid
+  std::vector<Vec3> brake;       ///< N, holds back in this step
 };
 
 /// @param rigid  a wall instead of a fluid
@@ -83,7 +86,8 @@ void measure_surface(Confinement& confinement, const ParticleTable& particles, c
                      const Platens& platens);
 
 /// Adds the pressure forces; their net force and moment are removed by a least-squares correction.
-/// A sphere on the axis has no lateral direction and gets no force.
+/// A sphere on the axis has no lateral direction and gets no force; one at an edge of a box is
+/// pressed on both faces.
 void apply_confinement(Confinement& confinement, ParticleTable& particles, const Partition& partition);
 
 /// A rigid wall takes up the lateral forces of the lateral surface, all of them summed: called when

@@ -23,6 +23,7 @@ struct RunSummary {
   std::optional<double> confinement_measured_Pa;  ///< of it what the specimen held up, at the end of stage 1
   /// of a test with a hydrostatic stage: "elastic" or "law"; by how much the bonds' limits are
   /// raised
+  std::optional<double> intermediate_stress_Pa;     ///< of a box, on the faces normal to x
   std::optional<double> cutting_force_N, thrust_N;  ///< along and across the way, means of its second half
   std::optional<double> largest_cutting_force_N;
   std::optional<double> specific_energy_J_per_m3;  ///< work of the tool over the volume that it swept

@@ -34,7 +34,7 @@ void count_yielded(Run& run) {
 
 bool press_hydrostatically(Run& run) {
   World& w = run.w;
-  const double pressure = run.test.confinement, crossing = crossing_time(w, run.assembly);
+  const double pressure = axial_start(run.test), crossing = crossing_time(w, run.assembly);
   const double rise = 16.0 * crossing, patience = 400.0 * crossing;  // (B67)
   w.platens.servo = true;
   if (run.test.loading != Loading::shear) w.platens.rough = false;  // (B110)

@@ -13,7 +13,8 @@ enum class Loading { compression, tension, shear, hydrostatic, cutting };
 
 struct LoadTest {
   Loading loading = Loading::compression;
-  double confinement = 0;  ///< Pa
+  double confinement = 0;   ///< Pa
+  double intermediate = 0;  ///< Pa, on the faces of a box normal to x; 0: the confinement
   HydrostaticResponse hydrostatic_response = HydrostaticResponse::law;
   double limits_raised = 0;   ///< Pa, of the bonds by that
   double platen_speed = 0.1;  ///< m/s, of each platen
@@ -24,6 +25,11 @@ struct LoadTest {
   std::vector<double> unload_at;  ///< platen strains at which the specimen is unloaded, then loaded again
   double unload_to = 0.1;         ///< fraction of the deviator at which loading begins again
 };
+
+/// Pa, that platens begin stage 2 from: the larger of the two that are held.
+inline double axial_start(const LoadTest& test) {
+  return test.intermediate > 0.0 ? test.intermediate : test.confinement;
+}
 
 /// Readings of gauges and platens when loading began.
 struct Datum {

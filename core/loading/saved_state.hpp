@@ -27,6 +27,7 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("tool_travel", w.tool.travel);
   visit("tool_work", w.tool.work);
   visit("confinement_pressure", w.confinement.pressure);
+  visit("confinement_pressure_x", w.confinement.pressure_x);
   visit("confinement_grown", w.confinement.grown);
 
   visit("search_awake", w.neighbour_list.awake);

@@ -100,12 +100,15 @@ bool checkpoint_if_due(Run& run) {
 
 void set_pressure(const Run& run, double pressure) {
   run.w.platens.pressure = pressure;
-  if (run.test.loading != Loading::shear) run.w.confinement.pressure = pressure;
+  if (run.test.loading == Loading::shear) return;
+  // those of a box rise together (B121)
+  run.w.confinement.pressure_x = pressure;
+  run.w.confinement.pressure = pressure * (run.test.confinement / axial_start(run.test));
 }
 
 Instruments begin_or_go_on(Run& run, Stage stage) {
   const bool resumed = run.state.stage == stage;
-  if (!resumed) run.state.left_out = drifting(run.w.confinement, run.w.particles, run.w.partition);
+  if (!resumed) run.state.left_out = loose_at_surface(run.w);
   const Instruments in = make_instruments(run.w, run.assembly, run.test, run.state.left_out,
                                           resumed ? &run.state.zeros : nullptr);
   if (resumed) return in;

@@ -262,6 +262,7 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
   const CurveFindings f = findings(test, load, result);
   RunSummary run;
   run.confinement_Pa = load.confinement;
+  if (load.intermediate > 0.0) run.intermediate_stress_Pa = load.intermediate;
   if (!result.record.rows.empty()) {
     run.peak_stress_Pa = f.peak_stress;
     run.peak_deviator_Pa = f.peak_deviator;

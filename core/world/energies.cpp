@@ -35,11 +35,32 @@ double kinetic_energy(const World& w) {
                        [&](std::size_t row) { return kinetic_energy_of(w.particles, row, factor); });
 }
 
-double kinetic_energy_of_bonded(const World& w) {
+namespace {
+
+/// Per row, whether an intact bond holds it.
+std::vector<char> rows_in_bonds(const World& w) {
   std::vector<char> is_held(w.particles.position.size(), 0);
   for (std::size_t k = 0; k < w.bonds.padded; ++k)
     if (w.bonds.stiffness[k] > 0.0 && bond_state(w.bonds, k) == BondState::intact)
       is_held[w.bonds.row_lo[k]] = is_held[w.bonds.row_hi[k]] = 1;
+  return is_held;
+}
+
+}  // namespace
+
+std::vector<Gid> loose_at_surface(const World& w) {
+  const std::vector<char> is_held = rows_in_bonds(w);
+  std::vector<Gid> mine;
+  for_owned_entries(w.partition, w.confinement.rows, [&](std::size_t k) {
+    const Row row = w.confinement.rows[k];
+    if (!is_held[row]) mine.push_back(w.particles.gid[row]);
+  });
+  if (w.partition.ranks.alone()) return mine;
+  return gather_elements_everywhere(w.partition.ranks, std::span<const Gid>(mine));
+}
+
+double kinetic_energy_of_bonded(const World& w) {
+  const std::vector<char> is_held = rows_in_bonds(w);
   std::vector<double> blocks;
   const double factor = inertia_factor(w);
   return sum_particles(w.partition, w.options.threads, blocks, [&](std::size_t row) {

@@ -16,6 +16,9 @@ BrokenCount count_broken(const World& world);
 /// J, of plain velocities, which belong to half a step ago.
 double kinetic_energy(const World& world);
 
+/// Spheres of the lateral surface that no intact bond holds; on every rank.
+std::vector<Gid> loose_at_surface(const World& world);
+
 /// J, the same of the particles that an intact bond holds.
 double kinetic_energy_of_bonded(const World& world);
 

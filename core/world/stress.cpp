@@ -62,6 +62,7 @@ double held_pressure(const World& w) {
     if (row >= p.free) return 0.0;  // of a rough platen's layer the platen holds some of it
     const Vec3& x = p.position[row];
     if (c.plane) return x.x < 0.0 ? -f.x : f.x;
+    if (c.prism) return std::copysign(1.0, x.x) * f.x + std::copysign(1.0, x.y) * f.y;
     const double away = std::hypot(x.x, x.y);
     return away > 0.0 ? (x.x * f.x + x.y * f.y) / away : 0.0;
   };

@@ -1,5 +1,6 @@
 #include "drivers/programs/scene_of_case.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/bonding/compressive_limits.hpp"
@@ -7,8 +8,16 @@
 namespace breccia {
 namespace {
 
+/// Pa, 0 where none is asked for.
+double intermediate_of(const Case& c, std::size_t run) {
+  const auto& stress = c.test.intermediate_stress;
+  return stress.empty() ? 0.0 : stress[std::min(run, stress.size() - 1)];
+}
+
 HydrostaticBranch branch_of(const Case& c, const LaboratoryTest& test, std::size_t run) {
-  const double pressure = test.pressure == PressureRole::lateral ? c.test.confinement[run] : 0.0;
+  double pressure = test.pressure == PressureRole::lateral ? c.test.confinement[run] : 0.0;
+  if (const double other = intermediate_of(c, run); other > 0.0)
+    pressure = (pressure + 2.0 * other) / 3.0;  // mean
   return {pressure > 0.0 ? c.test.hydrostatic_branch : HydrostaticResponse::law, pressure};
 }
 
@@ -23,6 +32,7 @@ LoadTest load_test(const Case& c, const LaboratoryTest& test, std::size_t run, c
   LoadTest load;
   load.loading = test.loading;
   load.confinement = c.test.confinement[run];
+  load.intermediate = intermediate_of(c, run);
   const HydrostaticBranch branch = branch_of(c, test, run);
   load.hydrostatic_response = branch.response;
   if (branch.response == HydrostaticResponse::elastic)

@@ -45,6 +45,7 @@ struct DampingCase {
 struct TestCase {
   std::vector<double> confinement{0.0};  ///< Pa
   bool rough_platens = true;
+  std::vector<double> intermediate_stress;  ///< Pa, none, one, or one for each confinement
   HydrostaticResponse hydrostatic_branch = HydrostaticResponse::elastic;
   double platen_speed = 0.1;  ///< m/s, of each platen
   double stop_strain = 0.02;

@@ -158,6 +158,31 @@ struct Checks : CaseLaid {
                        format_quantity(p, dimension::stress)));
   }
 
+  void intermediate() const {
+    if (c.specimen.body.shape == Shape::box && c.specimen.space == Space::three_d && !test->two_d)
+      idle("test.skin_weights", false, "the faces of a box share their areas as pi r^2");
+    const auto& stress = c.test.intermediate_stress;
+    if (stress.empty()) return;
+    const auto text = [](double p) { return format_quantity(p, dimension::stress); };
+    if (c.specimen.body.shape != Shape::box)
+      no("test.intermediate_stress",
+         "acts on two faces of a box; write specimen.shape = \"box\" or leave it out");
+    if (stress.size() != 1 && stress.size() != c.test.confinement.size())
+      no("test.intermediate_stress",
+         fmt::format("has {} values where test.confinement has {}; give one, or as many", stress.size(),
+                     c.test.confinement.size()));
+    for (std::size_t k = 0; k < c.test.confinement.size(); ++k) {
+      const double other = stress[std::min(k, stress.size() - 1)], least = c.test.confinement[k];
+      if (!(least > 0.0))
+        no("test.intermediate_stress",
+           "needs a test.confinement above 0 Pa beside it, the smallest of the three stresses");
+      if (other < least)
+        no("test.intermediate_stress",
+           fmt::format("{} is below the confinement {}: it is the larger of the two", text(other),
+                       text(least)));
+    }
+  }
+
   void tool() const {
     if (test->loading != Loading::cutting) return;
     const Body& body = c.specimen.body;
@@ -288,6 +313,7 @@ void check_test(const CaseLaid& laid) {
   checks.loading();
   checks.strips();
   checks.tool();
+  checks.intermediate();
   checks.idle_keys();
 }
 

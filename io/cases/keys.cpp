@@ -421,6 +421,16 @@ constexpr std::array keys{
         .reason = "this test sets no pressure",
         .meaning = "one run for each; hydrostatic: reached at the end; shear: on the lid of the box",
         .store = [](C& c, const R& r) { c.test.confinement = r.numbers; }},
+    Key{.name = "test.intermediate_stress",
+        .kind = Kind::quantities,
+        .dimension = dimension::stress,
+        .range = more_than(0),
+        .refused_by = [](const T& t) { return t.pressure != PressureRole::lateral || t.two_d; },
+        .reason = "this test has no pressure that could differ from side to side",
+        .meaning = "true triaxial of a box: pressure on its faces normal to x, one or one for each "
+                   "confinement, which "
+                   "is that on the faces normal to y",
+        .store = [](C& c, const R& r) { c.test.intermediate_stress = r.numbers; }},
     Key{.name = "test.hydrostatic_branch",
         .kind = Kind::word,
         .default_text = "elastic",

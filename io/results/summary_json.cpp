@@ -82,6 +82,7 @@ void for_each_rare_field(Run& run, Visit&& visit) {
   visit("bulk_modulus_Pa", run.bulk_modulus_Pa);
   visit("cycles", run.cycles);
   visit("confining_stress_at_peak_Pa", run.confining_stress_at_peak_Pa);
+  visit("intermediate_stress_Pa", run.intermediate_stress_Pa);
   visit("cutting_force_N", run.cutting_force_N);
   visit("thrust_N", run.thrust_N);
   visit("largest_cutting_force_N", run.largest_cutting_force_N);

@@ -277,6 +277,18 @@ class Impossible(Case):
         self.refused("ucs", UCS.replace(preset, preset + '\nyield_stress = "40 MPa"') + "[features]\nplasticity = false\n",
                      "material.yield_stress: with features.plasticity = false nothing yields")
 
+    def test_of_a_box_under_pressure(self):
+        block = UCS.replace('file = "specimen.csv"', 'pack = { spheres = 300 }\nshape = "box"\ndepth = "40 mm"')
+        box = lambda *lines: block.replace("[test]\n", "\n".join(["[test]", *lines, ""]))
+        two = 'confinement = ["1 MPa", "3 MPa"]'
+        self.refused("triaxial", box(two, 'intermediate_stress = ["2 MPa"]'), "test.intermediate_stress: 2 MPa is below the confinement 3 MPa")
+        self.refused("triaxial", box(two, 'intermediate_stress = ["5 MPa", "6 MPa", "7 MPa"]'), "test.intermediate_stress: has 3 values where")
+        self.refused("triaxial", box('intermediate_stress = "5 MPa"'), "test.intermediate_stress: needs a test.confinement above 0 Pa")
+        self.refused("triaxial", box(two, 'skin_weights = "voronoi"'), "test.skin_weights: the faces of a box")
+        self.refused("triaxial", test(two + "\nintermediate_stress = \"5 MPa\""), "test.intermediate_stress: acts on two faces of a box")
+        self.refused("hydrostatic", box('confinement = "5 MPa"', 'intermediate_stress = "5 MPa"').replace("stop_strain = 0.006", ""),
+                     "test.intermediate_stress: this test has no pressure")
+
     def test_of_cutting(self):
         block = UCS.replace('file = "specimen.csv"', 'pack = { spheres = 300 }\nshape = "box"\ndepth = "30 mm"').replace(
             '"100 mm"', '"40 mm"')
