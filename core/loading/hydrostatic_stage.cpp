@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fields/stress.hpp"
 #include "core/loading/stages.hpp"
 #include "core/stepping/step.hpp"
 #include "core/world/energies.hpp"
-#include "core/world/stress.hpp"
 
 namespace breccia {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
+#include "core/fields/strain.hpp"
 #include "core/loading/error_estimate.hpp"
 #include "core/loading/strength.hpp"
 #include "core/tables/state_hash.hpp"
 #include "core/world/energies.hpp"
-#include "core/world/strain.hpp"
 
 namespace breccia {
 

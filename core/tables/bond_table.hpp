@@ -35,7 +35,10 @@ namespace breccia {
   COLUMN(double, normal_force,    "N",     derived,   stress,          "of the law along the bond, tension positive")  \
   COLUMN(double, normal_stress,   "Pa",    derived,   stress,          "the same over the area")                      \
   COLUMN(double, shear_stress,    "Pa",    derived,   stress,          "magnitude of the tangential force over the area") \
-  COLUMN(double, failure_state,   "1",     derived,   stress,          "max(F_s/S, u_e/u_nf), 1 = broken (S5.21)")
+  COLUMN(double, failure_state,   "1",     derived,   stress,          "max(F_s/S, u_e/u_nf), 1 = broken (S5.21)") \
+  COLUMN(double, rankine_state,   "1",     derived,   stress,          "of the mean stress of both ends: largest principal stress over sigma_t") \
+  COLUMN(double, mohr_coulomb_state, "1",  derived,   stress,          "of the same: radius of the largest circle over that at failure") \
+  COLUMN(double, drucker_prager_state, "1", derived,  stress,          "of the same: sqrt(J2) over that at failure")
 // clang-format on
 
 struct BondTable {

@@ -3,9 +3,9 @@
 // thesis, eqs. 5.5 and 5.6.
 #include <doctest/doctest.h>
 
+#include "core/fields/stress.hpp"
 #include "core/stepping/step.hpp"
 #include "core/world/make_world.hpp"
-#include "core/world/stress.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -2,11 +2,11 @@
 // single bonds; a specimen in a rigid sleeve.
 #include <doctest/doctest.h>
 
+#include "core/fields/strain.hpp"
+#include "core/fields/stress.hpp"
 #include "core/stepping/step.hpp"
 #include "core/world/energies.hpp"
 #include "core/world/make_world.hpp"
-#include "core/world/strain.hpp"
-#include "core/world/stress.hpp"
 #include "kernels/loops/bond_energy.hpp"
 #include "tests/scene.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "core/fields/stress.hpp"
 #include "core/packing/packing.hpp"
 #include "core/stepping/step.hpp"
-#include "core/world/stress.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;

@@ -1,8 +1,9 @@
-#include "core/world/stress.hpp"
+#include "core/fields/stress.hpp"
 
 #include <cmath>
 
-#include "core/world/strain.hpp"
+#include "core/fields/strain.hpp"
+#include "core/fields/tensor_criteria.hpp"
 #include "kernels/loops/bond_energy.hpp"
 
 namespace breccia {
@@ -98,6 +99,30 @@ double held_pressure(const World& w) {
 
 namespace {
 
+/// Of the mean stress of both ends; for pictures. (B122)
+void fill_criteria(World& w) {
+  const ParticleTable& p = w.particles;
+  BondTable& b = w.bonds;
+  for (Column<double>* column : {&b.rankine_state, &b.mohr_coulomb_state, &b.drucker_prager_state})
+    column->assign(b.padded, 0.0);
+  std::visit(
+      [&](const auto& law) {
+        for (std::size_t k = 0; k < b.size; ++k) {
+          const Row i = b.row_lo[k], j = b.row_hi[k];
+          const auto principal = principal_stresses({0.5 * (p.stress_normal[i] + p.stress_normal[j]),
+                                                     0.5 * (p.stress_shear[i] + p.stress_shear[j])});
+          const BondConstants<double> bond = constants_of_bond(b, k);
+          const auto limits = limits_of(law, bond);
+          const TensorStrengths strengths{limits.tension / bond.strength_area,
+                                          limits.cohesion / bond.strength_area, law.failure.friction_pressed};
+          b.rankine_state[k] = rankine_state(principal, strengths);
+          b.mohr_coulomb_state[k] = mohr_coulomb_state(principal, strengths);
+          b.drucker_prager_state[k] = drucker_prager_state(principal, strengths);
+        }
+      },
+      w.law);
+}
+
 void fill_bond_columns(World& w) {
   const ParticleTable& p = w.particles;
   BondTable& b = w.bonds;
@@ -155,6 +180,7 @@ void fill_stress_columns(World& w) {
     p.strain_shear[row] = strain[row].shear;
   }
   fill_bond_columns(w);
+  if (w.features.breakage) fill_criteria(w);
 }
 
 }  // namespace breccia

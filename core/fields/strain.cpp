@@ -1,4 +1,4 @@
-#include "core/world/strain.hpp"
+#include "core/fields/strain.hpp"
 
 #include <Eigen/LU>
 
