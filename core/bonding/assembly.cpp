@@ -164,7 +164,9 @@ void set_areas(Assembly& a, const BondingRule& rule, const Features& features, i
 }  // namespace
 
 double Assembly::section() const {
-  return body.shape == Shape::box ? body.diameter * body.depth : 0.25 * pi * body.diameter * body.diameter;
+  const double whole =
+      body.shape == Shape::box ? body.diameter * body.depth : 0.25 * pi * body.diameter * body.diameter;
+  return whole - 0.25 * pi * body.hole * body.hole;
 }
 
 double Assembly::lateral_surface() const {

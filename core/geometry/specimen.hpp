@@ -29,6 +29,7 @@ struct Body {
   double depth = 0;      ///< m; a box: its width along y
   double height = 0;     ///< m, along the axis (disc: thickness)
   bool on_edge = false;  ///< a disc that stands: its axis is y, it is pressed across
+  double hole = 0;       ///< m, diameter of a round hole along the axis; 0: none
 };
 
 }  // namespace breccia

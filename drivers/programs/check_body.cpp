@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.hpp"
 #include "core/geometry/surface_fit.hpp"
@@ -47,6 +49,34 @@ std::string describe(const SurfaceFit& fit) {
   return text + fmt::format("; middle off by {:.2f}", norm(fit.offset));
 }
 
+/// A hole that the case says and the spheres do not have is refused; one that they have and the case
+/// does not say, warned about.
+void check_hole(const Body& nominal, const Specimen& placed, const MainBody& body, double mean_radius,
+                std::vector<std::string>& warnings) {
+  if (nominal.shape == Shape::disc) return;
+  std::size_t within = 0, spheres = 0;
+  double surface = std::numeric_limits<double>::infinity(), centre = surface;
+  for (std::size_t k = 0; k < placed.spheres.size(); ++k) {
+    if (!body.has[k]) continue;
+    const SpecimenSphere& s = placed.spheres[k];
+    const double away = std::hypot(s.centre.x, s.centre.y);
+    ++spheres;
+    within += away + 0.5 * s.radius < 0.5 * nominal.hole;
+    centre = std::min(centre, away);
+    surface = std::min(surface, away - s.radius);
+  }
+  if (50 * within > spheres || (nominal.hole > 0.0 && within > 0 && spheres < 50))
+    fail<BadInput>(
+        "{}: specimen.hole = {}: {} spheres lie within it; check the hole, and that it runs along the middle",
+        placed.source, millimetres(nominal.hole), within);
+  if (nominal.hole == 0.0 && centre > 2.5 * mean_radius)
+    warnings.push_back(
+        fmt::format("no sphere is within {} of the axis: if the specimen has a hole, say specimen.hole = "
+                    "\"{}\"; stresses are "
+                    "over the whole section now",
+                    millimetres(surface), millimetres(2.0 * surface)));
+}
+
 }  // namespace
 
 std::vector<std::string> check_body(const Case& c, const Specimen& placed, const MainBody& body,
@@ -84,6 +114,7 @@ std::vector<std::string> check_body(const Case& c, const Specimen& placed, const
                     millimetres(norm(fit.offset) * mean_radius), norm(fit.offset), right.x, right.y, right.z),
         warnings);
   }
+  check_hole(s.body, placed, body, mean_radius, warnings);
   check_size({"specimen.diameter", box ? "sides" : "lateral surface", s.body.diameter}, fit.across);
   if (fit.depth) check_size({"specimen.depth", "sides", s.body.depth}, *fit.depth);
   if (fit.height) check_size({"specimen.height", "ends", s.body.height}, *fit.height);

@@ -12,6 +12,7 @@
 #include "core/bonding/pieces.hpp"
 #include "core/bonding/section_area.hpp"
 #include "core/elastic/elastic_network.hpp"
+#include "core/packing/drill.hpp"
 #include "drivers/programs/check_body.hpp"
 #include "drivers/programs/check_bonded.hpp"
 #include "io/cases/keys_material.hpp"
@@ -55,7 +56,7 @@ Specimen make_specimen(const Case& c, int threads, Progress& progress, std::vect
     say(progress, fmt::format("packing {} {}", spheres_of(s.body, *s.pack),
                               s.space == Space::two_d ? "discs" : "spheres"));
     hold_at(HoldPoint::packing);
-    return pack_spheres(s.body, *s.pack);
+    return drilled(pack_spheres(s.body, *s.pack), s.body);
   } catch (const BadPacking& bad) {
     const std::string key = "specimen.pack." + bad.key;
     fail<BadInput>("{}: {}: {}", place_of(c, key), key, bad.what());

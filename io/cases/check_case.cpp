@@ -49,6 +49,7 @@ struct Checks : CaseLaid {
   void body() const {
     const Body& body = c.specimen.body;
     const bool box = body.shape == Shape::box, disc = body.shape == Shape::disc;
+    hole();
     if (c.specimen.space == Space::two_d) return body_in_plane();
     if (!has("specimen.diameter")) no("specimen.diameter", "missing; give the nominal diameter, \"150 mm\"");
     if (!has("specimen.height"))
@@ -73,6 +74,18 @@ struct Checks : CaseLaid {
                                                       : "\"cylinder\"");
       throw BadInput(text);
     }
+  }
+
+  void hole() const {
+    const Body& body = c.specimen.body;
+    if (!(body.hole > 0.0)) return;
+    const auto length = [](double value) { return format_quantity(value, dimension::length); };
+    if (c.specimen.space == Space::two_d) no("specimen.hole", "a 2-D scene has no axis; leave it out");
+    if (body.shape == Shape::disc) no("specimen.hole", "belongs to a cylinder or a box; leave it out");
+    const double width = body.shape == Shape::box ? std::min(body.diameter, body.depth) : body.diameter;
+    if (body.hole > 0.8 * width)
+      no("specimen.hole", fmt::format("{} leaves a wall of less than a tenth of the width, {}",
+                                      length(body.hole), length(width)));
   }
 
   void body_in_plane() const {

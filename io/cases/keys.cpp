@@ -133,6 +133,12 @@ constexpr std::array keys{
         .range = more_than(0),
         .meaning = "along the axis; of a disc its thickness (none in 2-D)",
         .store = [](C& c, const R& r) { c.specimen.body.height = r.number; }},
+    Key{.name = "specimen.hole",
+        .dimension = dimension::length,
+        .range = more_than(0),
+        .meaning = "diameter of a round hole along the axis: stresses are over what is left of the section; a packing "
+                   "made here is drilled",
+        .store = [](C& c, const R& r) { c.specimen.body.hole = r.number; }},
     Key{.name = "specimen.centre",
         .kind = Kind::quantities,
         .dimension = dimension::length,

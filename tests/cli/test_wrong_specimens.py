@@ -175,6 +175,18 @@ class NominalBody(Specimens):
 class LooseSpheres(Specimens):
     """What hangs on nothing is in no gauge, no pressed surface and no box."""
 
+    def test_hole(self):
+        drilled = lambda text, size="28 mm": text.replace('height = "100 mm"', f'height = "100 mm"\nhole = "{size}"')
+        self.refused(drilled(UCS), "specimen.hole = 28 mm: ", "spheres lie within it", program="ucs")
+        self.refused(drilled(UCS, "45 mm"), "specimen.hole: 45 mm leaves a wall of less than a tenth", program="ucs")
+        self.kept(lambda x, y, z: math.hypot(x, y) > 0.0145)
+        self.assertIn("if the specimen has a hole, say specimen.hole = ", self.dry(UCS, "ucs"))
+        self.assertNotIn("has a hole", self.dry(drilled(UCS), "ucs"))
+        # the same load over what is left of the section
+        fixed = ["--set", "bonds.alpha=1", "--set", 'material.shear_under_yield="elastic"']
+        whole, rest = self.summary(UCS, "ucs", fixed), self.summary(drilled(UCS), "ucs", fixed)
+        self.assertAlmostEqual(rest["peak_stress_Pa"] / whole["peak_stress_Pa"], 1 / (1 - (28 / 50)**2), delta=1e-9)
+
     def test_stray(self):
         self.place(self.spheres + [[999, 0.0, 0.0, 0.07, 0.002, 1]])
         self.refused(TRIAXIAL, "specimen.csv:302", "sphere 999", "stray", "remove")
