@@ -165,6 +165,11 @@ void fill_stress_columns(World& w) {
                    add_product(stress[lo], ratio * p.radius[lo], on_lo, n);
                    add_product(stress[hi], ratio * p.radius[hi], on_lo, n);
                  });
+  if (!w.partition.ranks.alone()) {  // a bond's other end may be another rank's
+    const Rows mine = w.partition.owned();
+    stress = gather_elements_everywhere(
+        w.partition.ranks, std::span<const Stress>(stress).subspan(mine.first, mine.last - mine.first));
+  }
   p.stress_normal.assign(p.padded, {});
   p.stress_shear.assign(p.padded, {});
   for (std::size_t row = 0; row < p.size; ++row) {

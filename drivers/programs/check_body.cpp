@@ -49,8 +49,8 @@ std::string describe(const SurfaceFit& fit) {
   return text + fmt::format("; middle off by {:.2f}", norm(fit.offset));
 }
 
-/// A hole that the case says and the spheres do not have is refused; one that they have and the case
-/// does not say, warned about.
+/// A hole that the case says and the spheres do not have is refused; one that they have and the
+/// case does not say, warned about.
 void check_hole(const Body& nominal, const Specimen& placed, const MainBody& body, double mean_radius,
                 std::vector<std::string>& warnings) {
   if (nominal.shape == Shape::disc) return;

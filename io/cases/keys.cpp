@@ -136,7 +136,8 @@ constexpr std::array keys{
     Key{.name = "specimen.hole",
         .dimension = dimension::length,
         .range = more_than(0),
-        .meaning = "diameter of a round hole along the axis: stresses are over what is left of the section; a packing "
+        .meaning = "diameter of a round hole along the axis: stresses are over what is left of the section; "
+                   "a packing "
                    "made here is drilled",
         .store = [](C& c, const R& r) { c.specimen.body.hole = r.number; }},
     Key{.name = "specimen.centre",

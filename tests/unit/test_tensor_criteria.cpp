@@ -1,5 +1,5 @@
-// Criteria on stress tensors against laboratory tests whose strength is a closed form (docs/model.md,
-// B122).
+// Criteria on stress tensors against laboratory tests whose strength is a closed form
+// (docs/model.md, B122).
 #include <doctest/doctest.h>
 
 #include <cmath>
