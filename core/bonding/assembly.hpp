@@ -48,6 +48,7 @@ struct Assembly {
   std::size_t dropped_bonds = 0;  ///< in range, but without an area (no common Voronoi face)
   std::size_t short_bonds = 0;    ///< nested spheres whose strains use a floor for their length
 
+  bool cement = false;             ///< intact bonds pass moments
   double section() const;          ///< m^2, nominal, across the axis (of a disc on edge: its face)
   double lateral_surface() const;  ///< m^2, nominal
   double volume() const { return section() * body.height; }

@@ -122,6 +122,16 @@ AreaFactor find_area_factor(const Assembly& a, const AreaFactorRequest& r, int t
   }
   // the network is linear: the modulus is proportional to alpha
   f.alpha = r.material.young_modulus / answer.young_modulus;  // (B15)
+  // but where moments go with its square
+  for (double off = a.cement ? 1.0 : 0.0; std::abs(off) > 1e-4 && f.probes < 12; ++f.probes) {
+    Assembly scaled = a;
+    for (double& area : scaled.bonds.area) area *= f.alpha;
+    Touching pressed = touching;
+    for (double& stiffness : pressed.contacts.stiffness) stiffness *= f.alpha;
+    answer = probe_with(scaled, r, f.shear_ratio, threads, pressed);
+    off = r.material.young_modulus / answer.young_modulus - 1.0;
+    f.alpha *= 1.0 + off;
+  }
   f.young_modulus = r.material.young_modulus;
   f.poisson_ratio = answer.poisson_ratio;
   f.affine = affine_of_levels(a, r.material, f.shear_ratio);

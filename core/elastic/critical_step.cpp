@@ -48,7 +48,12 @@ SpringConstants step_constants(const StepScene& s, std::size_t k, double dt) {
   const double stiff = 0.25 * dt * dt * (bond ? s.bonds.stiffness[k] : s.contacts.stiffness[c]);
   const double dashpot = bond ? bond_dashpot(s.dashpots, s.particles, s.bonds, k, dt)
                               : contact_dashpot(s.dashpots, s.particles, s.contacts, c, dt);
-  return {stiff + 0.5 * dt * dashpot, s.shear_ratio * stiff};
+  SpringConstants spring{stiff + 0.5 * dt * dashpot, s.shear_ratio * stiff};
+  if (bond && s.freedom.cement && bond_state(s.bonds, k) == BondState::intact) {
+    const MomentStiffness m = moment_stiffness(stiff, spring.shear, s.bonds.area[k], s.freedom.plane);
+    spring.bend = m.bend, spring.twist = m.twist;
+  }
+  return spring;
 }
 
 /// M^-1/2 (dt^2 K/4 + dt C/2) M^-1/2 (1 + alpha) of a scene (B41). One network takes the constants
@@ -70,8 +75,8 @@ public:
 
   LargestEigenvalue number(double dt, const LanczosEffort& effort) {
     set_constants<Real>(network_, [&](std::size_t k) {
-      const auto [normal, shear] = step_constants(scene_, k, dt);
-      return SpringConstants{normal / mean_mass_, shear / mean_mass_};
+      const auto [normal, shear, bend, twist] = step_constants(scene_, k, dt);
+      return SpringConstants{normal / mean_mass_, shear / mean_mass_, bend / mean_mass_, twist / mean_mass_};
     });
     const auto apply = [&](const VectorOf<Real>& x, VectorOf<Real>& image) {
       in_ = static_cast<Real>(1.0 + scene_.global_damping) * by_mass_.cwiseProduct(x);

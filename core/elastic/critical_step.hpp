@@ -12,6 +12,7 @@ struct Freedom {
   bool rotation = true;
   bool plane = false;           ///< two dimensions: no motion along y, no turn about x and z
   double inertia_factor = 0.4;  ///< I = factor m r^2
+  bool cement = false;          ///< intact bonds pass moments
 };
 
 /// What bounds the step: masses, and all that may press between them.

@@ -33,6 +33,24 @@ SpringLoad<Real> load_of(const Network<Real>& net, std::size_t k, const VectorOf
   return {pull, arm_ratio * cross(normal, pull)};
 }
 
+/// Couple on the lower end. (B123)
+template <class Real>
+Vec<Real> couple_of(const Network<Real>& net, std::size_t k, const VectorOf<Real>& u) {
+  const Vec<Real>& n = net.branches[k].normal;
+  const Vec<Real> turn = three<Real>(u, 6 * std::size_t{net.springs[k].hi} + 3) -
+                         three<Real>(u, 6 * std::size_t{net.springs[k].lo} + 3);
+  const auto& [bend, twist] = net.turnings[k];
+  return bend * turn + ((twist - bend) * dot(turn, n)) * n;
+}
+
+/// Moments are rare: there is room for them where one is asked for.
+template <class Real>
+void set_turning(Network<Real>& net, std::size_t k, const SpringConstants& c) {
+  if (net.turnings.empty() && c.bend == 0.0 && c.twist == 0.0) return;
+  if (net.turnings.empty()) net.turnings.assign(net.springs.size(), {Real(0), Real(0)});
+  net.turnings[k] = {static_cast<Real>(c.bend), static_cast<Real>(c.twist)};
+}
+
 }  // namespace
 
 template <class Real>
@@ -52,9 +70,10 @@ Network<Real> elastic_network(const ParticleTable& p, const BondTable& b, const 
     const Row lo = bond ? b.row_lo[k] : c.row_lo[k - b.size], hi = bond ? b.row_hi[k] : c.row_hi[k - b.size];
     const Vec3 l = p.position[hi] - p.position[lo];
     const double distance = norm(l), length = bond ? b.rest_length[k] : distance;
-    const auto [normal, shear] = constants(k);
+    const SpringConstants spring = constants(k);
     const double arm_ratio = rotation ? length / (p.radius[lo] + p.radius[hi]) : 0.0;
-    net.springs[k] = {lo, hi, real(normal), real(shear)};
+    net.springs[k] = {lo, hi, real(spring.normal), real(spring.shear)};
+    if (rotation) set_turning(net, k, spring);
     net.branches[k] = {{real(l.x / distance), real(l.y / distance), real(l.z / distance)}, real(arm_ratio)};
     ++net.first_entry[lo + 1];
     ++net.first_entry[hi + 1];
@@ -72,9 +91,10 @@ Network<Real> elastic_network(const ParticleTable& p, const BondTable& b, const 
 template <class Real>
 void set_constants(Network<Real>& net, const std::function<SpringConstants(std::size_t)>& constants) {
   for (std::size_t k = 0; k < net.springs.size(); ++k) {
-    const auto [normal, shear] = constants(k);
-    net.springs[k].k_n = static_cast<Real>(normal);
-    net.springs[k].k_s = static_cast<Real>(shear);
+    const SpringConstants spring = constants(k);
+    net.springs[k].k_n = static_cast<Real>(spring.normal);
+    net.springs[k].k_s = static_cast<Real>(spring.shear);
+    set_turning(net, k, spring);
   }
 }
 
@@ -87,15 +107,17 @@ void apply_stiffness(const Network<Real>& net, const VectorOf<Real>& u, std::vec
   });
   for_rows(net.particles, net.threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
-      Vec<Real> force, moment;
+      Vec<Real> force, moment, couple;
       for (std::uint32_t e = net.first_entry[p]; e < net.first_entry[p + 1]; ++e) {
         const SpringLoad<Real>& load = loads[net.entries[e] >> 1];
         // K u is what must be applied: minus the spring's pull on the end
         force += (net.entries[e] & 1u ? Real(1) : Real(-1)) * load.pull;
         moment += load.moment;
+        if (!net.turnings.empty())
+          couple += (net.entries[e] & 1u ? Real(1) : Real(-1)) * couple_of(net, net.entries[e] >> 1, u);
       }
       put<Real>(forces, 6 * p, force);
-      put<Real>(forces, 6 * p + 3, -net.radius[p] * moment);
+      put<Real>(forces, 6 * p + 3, couple - net.radius[p] * moment);
     }
   });
 }
@@ -125,6 +147,9 @@ Eigen::VectorXd stiffness_diagonal(const ElasticNetwork& net) {
       for (int k = 0; k < 3; ++k) {
         d[at + k] += s.k_n * squares[k] + s.k_s * (1.0 - squares[k]);
         d[at + 3 + k] += s.k_s * arm * arm * (1.0 - squares[k]);
+        if (net.turnings.empty()) continue;
+        const auto& [bend, twist] = net.turnings[spring];
+        d[at + 3 + k] += bend * (1.0 - squares[k]) + twist * squares[k];
       }
     }
   }
@@ -222,8 +247,14 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
   const ContactTable& c = touching.contacts;
   std::vector<SpringConstants> contact(c.size);
   const auto constants = [&](std::size_t k) {
-    return k < a.bonds.size ? SpringConstants{stiffness[k], shear_ratio * stiffness[k]}
-                            : contact[k - a.bonds.size];
+    if (k >= a.bonds.size) return contact[k - a.bonds.size];
+    SpringConstants spring{stiffness[k], shear_ratio * stiffness[k]};
+    if (a.cement) {
+      const MomentStiffness m =
+          moment_stiffness(spring.normal, spring.shear, a.bonds.area[k], a.space == Space::two_d);
+      spring.bend = m.bend, spring.twist = m.twist;
+    }
+    return spring;
   };
   ElasticNetwork net = elastic_network(p, a.bonds, c, a.rotation, threads, constants);
   const auto n = static_cast<Eigen::Index>(6 * net.particles);

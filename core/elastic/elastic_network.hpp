@@ -29,6 +29,10 @@ struct Network {
   };
   std::vector<Spring> springs;
   std::vector<Branch> branches;
+  struct Turning {
+    Real bend, twist;  ///< N m per rad
+  };
+  std::vector<Turning> turnings;                    ///< beside the springs; empty where none passes moments
   std::vector<Real> radius;                         ///< m, per particle
   std::vector<std::uint32_t> first_entry, entries;  ///< per particle: spring << 1 | particle is hi
   std::size_t particles = 0;
@@ -37,7 +41,8 @@ struct Network {
 using ElasticNetwork = Network<double>;
 
 struct SpringConstants {
-  double normal, shear;  ///< N/m
+  double normal, shear;        ///< N/m
+  double bend = 0, twist = 0;  ///< N m per rad
 };
 
 /// Springs lie where the particles are now.

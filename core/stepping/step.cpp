@@ -8,6 +8,7 @@
 #include "core/distributed/distribute.hpp"
 #include "core/distributed/gather.hpp"
 #include "core/distributed/halo.hpp"
+#include "core/world/cement.hpp"
 #include "core/world/energy_accounting.hpp"
 #include "core/world/loop_views.hpp"
 #include "core/world/scatter_plans.hpp"
@@ -99,8 +100,8 @@ RollingScene rolling_scene(const World& w) {
   return {w.dt, w.material.rolling_friction, w.shear_ratio, p.position, p.velocity, p.spin, p.radius};
 }
 
-/// Broken bonds resist to rolling.
-void roll_bonds(World& w) {
+/// Moments of cement, and resistance of broken bonds to rolling.
+void turn_bonds(World& w) {
   BondTable& b = w.bonds;
   if (b.couple.empty()) return;
   const Lap lap(w.phases, Phase::bonds);
@@ -109,12 +110,19 @@ void roll_bonds(World& w) {
   const Scatter to = couple_view(w.bond_plan, b.row_lo, b.row_hi, w.particles);
   const std::size_t owned =
       ForceBuffer::capacity * force_blocks(b.size);  // copies count where they are owned
+  const RollingScene scene = rolling_scene(w);
+  const auto* cement = std::get_if<ParallelBondLaw>(&w.law);
+  const bool rolls = w.material.rolling_friction > 0.0;
   for_ranges(w.bond_plan.ranges, [&](int range) {
-    rolling_pass(rolling_scene(w), pairs, w.bond_plan.first(range), w.bond_plan.first(range + 1), to,
-                 [&](std::size_t k, double taken) {
-                   if (w.ledger.enabled && k < owned)
-                     w.ledger.bonds[k / ForceBuffer::capacity].friction += taken;
-                 });
+    const auto book = [&](std::size_t k, double taken) {
+      if (w.ledger.enabled && k < owned) w.ledger.bonds[k / ForceBuffer::capacity].friction += taken;
+    };
+    couple_pass(pairs.couple, w.bond_plan.first(range), w.bond_plan.first(range + 1), to, [&](std::size_t k) {
+      if (cement && bond_state(b, k) == BondState::intact)
+        return bend(w, *cement, k, k < owned ? notes_of(w.cracks, range) : nullptr, k < owned);
+      if (cement) drop_moment(w, k, k < owned);
+      return rolls && roll(scene, pairs, k, book);
+    });
   });
 }
 
@@ -123,11 +131,13 @@ void roll_contacts(World& w) {
   if (c.couple.empty()) return;
   const RollingPairs pairs{c.row_lo, c.row_hi, c.free_length, {}, c.stiffness, {}, {}, c.couple};
   const Scatter to = couple_view(w.contact_plan, c.row_lo, c.row_hi, w.particles);
+  const RollingScene scene = rolling_scene(w);
   for_ranges(w.contact_plan.ranges, [&](int range) {
-    rolling_pass(rolling_scene(w), pairs, w.contact_plan.first(range), w.contact_plan.first(range + 1), to,
-                 [&](std::size_t k, double taken) {
-                   if (w.ledger.enabled) w.ledger.contacts[k / ForceBuffer::capacity].friction += taken;
-                 });
+    const auto book = [&](std::size_t k, double taken) {
+      if (w.ledger.enabled) w.ledger.contacts[k / ForceBuffer::capacity].friction += taken;
+    };
+    couple_pass(pairs.couple, w.contact_plan.first(range), w.contact_plan.first(range + 1), to,
+                [&](std::size_t k) { return roll(scene, pairs, k, book); });
   });
 }
 
@@ -137,7 +147,7 @@ void bond_forces(World& w) {
     finish_halo_exchange(w);
     pass_over_bonds(w, true);
   }
-  roll_bonds(w);
+  turn_bonds(w);
   const Lap lap(w.phases, Phase::bonds);
   sync_broken(w);
   record_cracks(w.cracks, w.law, w.features.criterion == Criterion::coupled, w.time, w.dt, w.particles,

@@ -28,7 +28,7 @@ namespace breccia {
   COLUMN(double, plastic_stretch, "m",     history,   plasticity,      "elongation at which the bond is free of force, <= 0") \
   COLUMN(double, damage_normal,   "1",     history,   breakage,        "D_n: 0 intact, 1 broken in tension")          \
   COLUMN(double, damage_shear,    "1",     history,   breakage,        "D_s: 0 intact, 1 broken in shear")            \
-  COLUMN(Vec3,   couple,          "N m",   history,   rolling,         "resistance to rolling on lo, once broken")    \
+  COLUMN(Vec3,   couple,          "N m",   history,   rolling,         "moment of cement on lo; resistance to rolling, once broken")    \
   COLUMN(double, spring_force,    "N",     ledger,    ledger,          "of the law along a damaged bond at the end of the step, tension positive") \
   COLUMN(double, viscous_force,   "N",     ledger,    ledger,          "of the dashpot along the bond, as it was applied") \
   COLUMN(double, shear_factor,    "1",     ledger,    ledger,          "of a damaged bond, tangential force over the history of shear")  \

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/world/cement.hpp"
 #include "core/world/loop_views.hpp"
 #include "kernels/loops/bond_energy.hpp"
 #include "kernels/loops/rolling_pass.hpp"
@@ -70,15 +71,19 @@ double kinetic_energy_of_bonded(const World& w) {
 
 namespace {
 
-/// J, in the springs against rolling of a table of pairs. (B116)
+/// J, in the moments of cement, and in the springs against rolling of a table of pairs. (B116)
 template <class Table>
 double rolling_energy(const World& w, const Table& t) {
   // every rank takes part in the sum, one without rows too
-  if (!(w.material.rolling_friction > 0.0) || !(w.shear_ratio > 0.0)) return 0.0;
+  const bool cement = std::holds_alternative<ParallelBondLaw>(w.law);
+  if (!cement && (!(w.material.rolling_friction > 0.0) || !(w.shear_ratio > 0.0))) return 0.0;
   std::vector<double> blocks;
   return sum_pairs(w.partition, t, w.options.threads, blocks, [&](std::size_t k) {
+    if (t.couple.empty()) return 0.0;
     const double size2 = dot(t.couple[k], t.couple[k]);
     if (!(size2 > 0.0)) return 0.0;
+    if constexpr (std::is_same_v<Table, BondTable>)
+      if (cement && bond_state(t, k) == BondState::intact) return moment_energy(w, k);
     const auto& r = w.particles.radius;
     return 0.5 * size2 / rolling_stiffness(w.shear_ratio * t.stiffness[k], r[t.row_lo[k]], r[t.row_hi[k]]);
   });

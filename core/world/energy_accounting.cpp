@@ -85,8 +85,9 @@ double normal_damage(const World& w) {
   std::vector<double> blocks;
   const BondTable& b = w.bonds;
   return std::visit(
-      [&](const auto& law) {
+      [&]<class Law>(const Law& law) {
         return sum_pairs(w.partition, b, w.options.threads, blocks, [&](std::size_t k) {
+          if (passes_moments<Law>) return 0.0;
           const double damage = b.damage_normal[k];
           if (!(damage > 0.0)) return 0.0;
           const BondConstants<double> bond = constants_of_bond(b, k);

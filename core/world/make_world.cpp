@@ -94,7 +94,8 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.work_of_free = work_of_free_for(options.instruction_set);
   w.undamaged_energy = undamaged_energy_for(options.instruction_set);
   w.confinement.current = options.current_surface;
-  if (material.rolling_friction > 0.0) w.bonds.couple.assign(w.bonds.padded, {});
+  const bool cement = std::holds_alternative<ParallelBondLaw>(w.law) && w.features.rotation;
+  if (material.rolling_friction > 0.0 || cement) w.bonds.couple.assign(w.bonds.padded, {});
   if (options.orientation) w.particles.orientation.assign(w.particles.padded, {});
   if (options.ledger) {
     for (Column<double>* column : {&w.bonds.spring_force, &w.bonds.viscous_force, &w.bonds.shear_factor})

@@ -21,7 +21,8 @@ StepScene step_scene(const World& w) {
           .shear_ratio = w.shear_ratio,
           .global_damping = global.viscous ? 0.0 : std::max(global.translation, global.rotation),
           .reach = w.neighbour_list.skin,
-          .freedom = {w.options.features.rotation, w.space == Space::two_d, inertia_factor(w)},
+          .freedom = {w.options.features.rotation, w.space == Space::two_d, inertia_factor(w),
+                      std::holds_alternative<ParallelBondLaw>(w.law)},
           .threads = w.options.threads};
 }
 

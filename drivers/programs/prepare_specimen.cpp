@@ -179,7 +179,9 @@ ReadySpecimen make_ready(const Case& c, const LaboratoryTest& test, const Featur
   }
   const auto bonded = [&](const Specimen& s, const Body& b, Support support) {
     rule.grip = support;
-    return with_place(c, [&] { return assemble(s, b, rule, features, threads, asked.rotation); });
+    Assembly a = with_place(c, [&] { return assemble(s, b, rule, features, threads, asked.rotation); });
+    a.cement = asked.rotation && facts_of(c.materials.front().law).cement;
+    return a;
   };
   const bool contacts = has_contacts(c, test);
   const auto look_at = [&](Assembly& a) {

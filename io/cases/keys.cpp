@@ -311,7 +311,6 @@ constexpr std::array keys{
     Key{.name = "material.law",
         .kind = Kind::word,
         .default_text = "dempack",
-        .reserved = "parallel-bond",
         .meaning = "of the bonds",
         .store_material = [](M& m, const R& r) { m.law = r.word; }},
     Key{.name = "material.criterion",

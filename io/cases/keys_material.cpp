@@ -99,6 +99,7 @@ const LawFacts& facts_of(std::string_view law) {
       LawFacts facts{Law::name, split_words(Law::takes), {}, {}, false};
       for (const LawParameter& own : Law::own) facts.own.push_back(own);
       for (const LawDefault& default_text : Law::defaults) facts.defaults.push_back(default_text);
+      facts.cement = passes_moments<Law>;
       for (const Features& set : Law::feature_sets) facts.plasticity = facts.plasticity || set.plasticity;
       list.push_back(std::move(facts));
     });

@@ -43,6 +43,7 @@ struct LawFacts {
   std::vector<LawParameter> own;
   std::vector<LawDefault> defaults;
   bool plasticity = false;
+  bool cement = false;  ///< intact bonds pass moments
 
   bool has(std::string_view key) const;  ///< uses this key of [material], one that not every law uses
 };

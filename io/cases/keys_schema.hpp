@@ -49,11 +49,10 @@ struct Key {
   std::string_view default_2d{};  ///< where a 2-D scene has another and the test has none
   Range range{};
   RangeWhere where{};
-  std::string_view words{};       ///< valid words
-  std::string_view reserved{};    ///< words (or true) that a later version brings: refused by name
-  std::size_t count = 0;          ///< of quantities; 0: one or more
-  bool rising = false;            ///< quantities never fall
-  std::string_view instead_of{};  ///< the key that this one replaces
+  std::string_view words{};                             ///< valid words
+  std::size_t count = 0;                                ///< of quantities; 0: one or more
+  bool rising = false;                                  ///< quantities never fall
+  std::string_view instead_of{};                        ///< the key that this one replaces
   bool (*refused_by)(const LaboratoryTest&) = nullptr;  ///< a test that has no use for it
   bool packs = true;                                    ///< breccia-pack accepts it
   std::string_view reason{};                            ///< why it is refused

@@ -91,21 +91,12 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-[[noreturn]] void refuse_reserved(const Key& key, const TomlNode& node) {
-  const auto words = split_words(key.words);
-  const std::string cure = key.kind == Kind::boolean ? "valid: false"
-                           : words.empty()           ? "leave it out"
-                                                     : "valid: " + quote_list(words);
-  fail<BadInput>("{}: {} {} is not in this version; {}", node.place, key.name, shown(node), cure);
-}
-
 std::string read_word(const Key& key, const TomlNode& node) {
   const auto words = split_words(key.words);
   const auto* word = std::get_if<std::string>(&node.value);
   if (!word)
     refuse(node.place, key.name,
            fmt::format("a word is wanted, not {}; valid: {}", shown(node), quote_list(words)));
-  if (contains(split_words(key.reserved), *word)) refuse_reserved(key, node);
   if (contains(words, *word)) return *word;
   const std::string number = key.kind == Kind::word_or_number ? ", or a number" : "";
   refuse(node.place, key.name, fmt::format("unknown {}; {}{}", quote(*word), suggest(*word, words), number));
@@ -156,7 +147,6 @@ Reading read_value(const Key& key, const TomlNode& node) {
     case Kind::boolean: {
       const auto* flag = std::get_if<bool>(&node.value);
       if (!flag) refuse(node.place, key.name, "true or false is wanted, not " + shown(node));
-      if (*flag && key.reserved == "true") refuse_reserved(key, node);
       reading.flag = *flag;
       break;
     }

@@ -52,7 +52,7 @@ void write_at(std::string& text, const std::vector<ConfinementLayer>& groups, co
 std::string describe_values(const Key& key) {
   switch (key.kind) {
     case Kind::boolean:
-      return key.reserved == "true" ? "false" : "true, false";
+      return "true, false";
     case Kind::word:
       return quote_list(split_words(key.words));
     case Kind::word_or_number:

@@ -69,6 +69,13 @@ inline R pressed_energy(const Law&, const BondConstants<R>& bond, const R& u, co
   return R(0.5) * bond.stiffness * (u - plastic) * (u - plastic);
 }
 
+/// Whether intact bonds pass moments: what tears them then is not their pull alone, and no fracture
+/// energy follows from their state. (B124)
+template <class Law>
+constexpr bool passes_moments = requires(Law law) {
+  law.moment_factor;
+};
+
 /// Largest tension and cohesion of a bond, N: strengths are stresses.
 template <class Law, class R>
 inline BondLimits<R> limits_of(const Law& law, const BondConstants<R>& bond) {

@@ -6,13 +6,15 @@
 #include "kernels/laws/dempack.hpp"
 #include "kernels/laws/exponential.hpp"
 #include "kernels/laws/kdem.hpp"
+#include "kernels/laws/parallel_bond.hpp"
 
 namespace breccia {
 
 using BondLaw = std::variant<DempackLaw,      //
                              ExponentialLaw,  //
                              KdemLaw,         //
-                             ContactBondLaw>;
+                             ContactBondLaw,  //
+                             ParallelBondLaw>;
 
 /// Calls visit(type) with a default-made law of each kind; its constants mean nothing.
 template <class Visit>

@@ -111,7 +111,7 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
       normal_loss = mean_spring * stretch - loss.plastic -
                     (stored_along<features>(law, bond, u, h, action.spring) -
                      stored_along<features>(law, bond, u - stretch, before, last.spring));
-      if constexpr (features.criterion != Criterion::coupled) {
+      if constexpr (features.criterion != Criterion::coupled && !passes_moments<Law>) {
         const R delta = delta_normal(law.failure, strain_length(law.young, bond));
         normal_loss -= damage_energy(h.damage_normal - before.damage_normal, limits_of(law, bond).tension,
                                      bond.stiffness, delta);

@@ -14,6 +14,11 @@ struct RollingScene {
   double shear_ratio = 0;  ///< k_s/k_n
   Strided<const Vec3> position, velocity, spin;
   std::span<const double> radius;
+
+  Ends<double> ends(Index lo, Index hi) const {
+    const auto end = [&](Index row) { return End<double>{position[row], velocity[row], spin[row]}; };
+    return ends_of(end(lo), end(hi));
+  }
 };
 
 /// Pairs that may press; spans by row. Damage is empty where nothing was ever bonded.
@@ -36,40 +41,43 @@ inline double rolling_stiffness(double shear_stiffness, double radius_lo, double
   return shear_stiffness * lever * lever;
 }
 
-/// Torques on the lower ends of pairs [first, last), opposite ones on the upper ends. (B116)
+/// Brings the couple of a pair up to date. (B116)
 /// @param book  book(pair, J): what rolling has taken over this step
+/// @returns false where there is none
 template <class Book>
-void rolling_pass(const RollingScene& scene, const RollingPairs& pairs, std::size_t first, std::size_t last,
-                  Scatter to, const Book& book) {
+bool roll(const RollingScene& scene, const RollingPairs& pairs, std::size_t at, const Book& book) {
+  const Index lo = pairs.row_lo[at], hi = pairs.row_hi[at];
+  Vec3& couple = pairs.couple[at];
+  const double force = pairs.pressed(at, norm(scene.position[hi] - scene.position[lo]));
+  if (!(force > 0.0) && couple == Vec3{}) return false;
+  const double a = scene.radius[lo], b = scene.radius[hi];
+  const double spring = rolling_stiffness(scene.shear_ratio * pairs.stiffness[at], a, b);
+  const Pair<double> pair = relative_motion<true>(scene.ends(lo, hi), 0.0, scene.dt);
+  const Vec3 rolling = rolling_spin(scene.spin[lo], scene.spin[hi], pair.normal);
+  const Vec3 turned = rotate_with_pair<true>(couple, pair);
+  const double limit = scene.friction * a * b / (a + b) * force;
+  couple = slipping_rolling_torque(turned, rolling, spring, limit, scene.dt);
+  const double kept = spring > 0.0 ? 0.5 * (dot(couple, couple) - dot(turned, turned)) / spring : 0.0;
+  book(at, -0.5 * scene.dt * dot(turned + couple, rolling) - kept);
+  return true;
+}
+
+/// Couples on the lower ends of pairs [first, last), opposite ones on the upper ends.
+/// @param update  update(pair): brings its couple up to date, false where there is none
+template <class Update>
+void couple_pass(std::span<const Vec3> couple, std::size_t first, std::size_t last, Scatter to,
+                 const Update& update) {
   to.force = to.torque;  // equal and opposite, as forces are
   to.torque = {};
-  const auto end = [&](Index row) {
-    return End<double>{scene.position[row], scene.velocity[row], scene.spin[row]};
-  };
   ForceBuffer block;
   while (first < last) {
     const std::size_t count = last - first < ForceBuffer::capacity ? last - first : ForceBuffer::capacity;
-    bool rolls = false;
+    bool acts = false;
     for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t at = first + k;
-      const Index lo = pairs.row_lo[at], hi = pairs.row_hi[at];
-      Vec3& couple = pairs.couple[at];
-      const double force = pairs.pressed(at, norm(scene.position[hi] - scene.position[lo]));
-      if (force > 0.0 || !(couple == Vec3{})) {
-        const double a = scene.radius[lo], b = scene.radius[hi];
-        const double spring = rolling_stiffness(scene.shear_ratio * pairs.stiffness[at], a, b);
-        const Pair<double> pair = relative_motion<true>(ends_of(end(lo), end(hi)), 0.0, scene.dt);
-        const Vec3 rolling = rolling_spin(scene.spin[lo], scene.spin[hi], pair.normal);
-        const Vec3 turned = rotate_with_pair<true>(couple, pair);
-        const double limit = scene.friction * a * b / (a + b) * force;
-        couple = slipping_rolling_torque(turned, rolling, spring, limit, scene.dt);
-        const double kept = spring > 0.0 ? 0.5 * (dot(couple, couple) - dot(turned, turned)) / spring : 0.0;
-        book(at, -0.5 * scene.dt * dot(turned + couple, rolling) - kept);
-        rolls = true;
-      }
-      block.load[k] = {couple, {}};
+      acts = update(first + k) || acts;
+      block.load[k] = {couple[first + k], {}};
     }
-    if (rolls || to.mode == ScatterMode::column) scatter(to, block, first, count);
+    if (acts || to.mode == ScatterMode::column) scatter(to, block, first, count);
     first += count;
   }
 }

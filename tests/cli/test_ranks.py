@@ -130,6 +130,22 @@ class SeveralRanks(ProgramTest):
             np.testing.assert_array_equal(mine[name][()], other[name][()])
             self.assertGreater(abs(other[name][()]).max(), 1e-4)
 
+    def test_cement_passes_moments_between_ranks(self):
+        options = (*GATHER, "--set", 'material.law="parallel-bond"', "--set", 'test.confinement=["0 MPa"]', "--threads", "1", "--quiet")
+        case = self.write("cement.toml", self.one.read_text().replace("packed/", f"{self.shelf}/packed/").replace(
+            'preset = "concrete"', 'density = 2500\nyoung_modulus = "28 GPa"\npoisson_ratio = 0.2\nfriction_static = 0.8\n'
+            'friction_dynamic = 0.3\ntensile_strength = "6 MPa"\nshear_strength = "20 MPa"'))
+        self.finish(self.launch(3, "triaxial", case, *options, "--out", self.out))
+        alone = run("triaxial", case, *options, "--out", self.work / "one")
+        self.assertEqual((alone.returncode, alone.stderr), (0, ""))
+        ours, theirs = (json.loads((f / "summary.json").read_text())["runs"][0] for f in (self.out, self.work / "one"))
+        for key in ("state_hash", "broken_tension"):
+            self.assertEqual(ours[key], theirs[key], key)
+        self.assertAlmostEqual(ours["energy_error"] / theirs["energy_error"], 1, delta=1e-6)  # added up rank by rank
+        self.assertGreater(ours["broken_tension"], 20)
+        self.assertLess(ours["energy_error"], 1e-3)
+        self.assertAlmostEqual(ours["young_modulus_Pa"] / 28e9, 1, delta=0.02)
+
     def test_ranks_without_a_contact(self):
         # bonds so long that nothing unbonded is near, but around one loose sphere, which is the second rank's
         with (self.shelf / "packed" / "specimen.csv").open(newline="") as file:

@@ -510,19 +510,6 @@ TEST_CASE("case: ranges, each bound in the text") {
   CHECK(complaint(good + "limit_compressive_stress = [2, 2, 2]\n") == "accepted");
 }
 
-TEST_CASE("case: what a later version brings is refused by name") {
-  struct Later {
-    const char *table, *line, *text;
-  };
-  for (const Later& l : {
-           Later{
-               "material", "law = \"parallel-bond\"",
-               "material.law \"parallel-bond\" is not in this version; valid: \"dempack\", \"exponential\", "
-               "\"kdem\""},
-       })
-    says(complaint(std::string("[") + l.table + "]\n" + l.line + "\n"), std::string("c.toml:2: ") + l.text);
-}
-
 TEST_CASE("case: a recipe of time.accuracy sets only what the case does not name") {
   const Case usual = load(good), normal = load(good + "[time]\naccuracy = \"normal\"\n");
   CHECK(normal.safety == usual.safety);
