@@ -131,7 +131,7 @@ class SeveralRanks(ProgramTest):
             self.assertGreater(abs(other[name][()]).max(), 1e-4)
 
     def test_cement_passes_moments_between_ranks(self):
-        options = (*GATHER, "--set", 'material.law="parallel-bond"', "--set", 'test.confinement=["0 MPa"]', "--threads", "1", "--quiet")
+        options = (*GATHER, "--set", "test.platen_speed=0.1", "--set", 'material.law="parallel-bond"', "--set", 'test.confinement=["0 MPa"]', "--threads", "1", "--quiet")
         case = self.write("cement.toml", self.one.read_text().replace("packed/", f"{self.shelf}/packed/").replace(
             'preset = "concrete"', 'density = 2500\nyoung_modulus = "28 GPa"\npoisson_ratio = 0.2\nfriction_static = 0.8\n'
             'friction_dynamic = 0.3\ntensile_strength = "6 MPa"\nshear_strength = "20 MPa"'))
