@@ -220,7 +220,14 @@ double press_pair_of_faces(Confinement& c, ParticleTable& particles, const Parti
   const auto is_pressed = [&](std::size_t k) {
     return weight[k] != 0.0 && !has_left(particles, c.rows[k], across);
   };
-  const auto push = [&](std::size_t k) { return -pressure * c.grown * weight[k]; };
+  // nothing that holds together moves faster than a step of the pressure would make it, p/sqrt(E
+  // rho)
+  const double fast = c.impedance > 0.0 ? 2.0 * pressure / c.impedance : 0.0;
+  const auto push = [&](std::size_t k) {
+    const double full = -pressure * c.grown * weight[k], speed = particles.velocity[c.rows[k]].*normal;
+    const double inward = full < 0.0 ? -speed : speed;
+    return fast > 0.0 ? full * std::clamp(2.0 - inward / fast, 0.0, 1.0) : full;
+  };
   std::vector<FaceSums> blocks;
   const FaceSums s = sum_listed(partition, c.rows, 1, blocks, [&](std::size_t k) {
     if (!is_pressed(k)) return FaceSums{};

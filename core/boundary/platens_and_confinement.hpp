@@ -60,6 +60,7 @@ struct Confinement {
   bool current = false;  ///< pressure acts on the surface as it is now
   double grown = 1;      ///< of the surface, by what it has become larger; 1 where it does not count
   double height = 0;     ///< m, of the specimen when it was made
+  double impedance = 0;  ///< Pa s/m, sqrt(E rho) of the specimen: what a box's faces can follow; 0: anything
   std::vector<Row> rows;
   std::vector<double> weight;    ///< m^2; of a box on a face normal to y, 0 where it is on none
   std::vector<double> weight_x;  ///< m^2, of a box on a face normal to x

@@ -12,12 +12,21 @@ bool is_loose(const Assembly& a, std::size_t row) { return !a.loose.empty() && a
 
 }  // namespace
 
-Gauge axial_gauge(const Assembly& a) {
+namespace {
+
+bool is_left_out(const Assembly& a, Row row, std::span<const Gid> left_out) {
+  return is_loose(a, row) ||
+         std::find(left_out.begin(), left_out.end(), a.particles.gid[row]) != left_out.end();
+}
+
+}  // namespace
+
+Gauge axial_gauge(const Assembly& a, std::span<const Gid> left_out) {
   Gauge g;
   const auto& x = a.particles.reference_position;
   double mean = 0.0;
   for (std::size_t row = 0; row < x.size(); ++row)
-    if (std::abs(x[row].z) < 0.25 * a.body.height && !is_loose(a, row)) {
+    if (std::abs(x[row].z) < 0.25 * a.body.height && !is_left_out(a, static_cast<Row>(row), left_out)) {
       g.rows.push_back(static_cast<Row>(row));
       mean += x[row].z;
     }
@@ -35,8 +44,7 @@ Gauge lateral_gauge(const Assembly& a, std::span<const Gid> left_out) {
   const bool x_only = a.body.on_edge || a.space == Space::two_d;
   Vec3 mean;
   const auto add = [&](Row row) {
-    if (std::abs(x[row].z) >= 0.2 * a.length() || is_loose(a, row)) return;
-    if (std::find(left_out.begin(), left_out.end(), a.particles.gid[row]) != left_out.end()) return;
+    if (std::abs(x[row].z) >= 0.2 * a.length() || is_left_out(a, row, left_out)) return;
     g.rows.push_back(row);
     mean += x[row];
   };

@@ -16,7 +16,7 @@ struct Gauge {
 
 /// Least-squares slope of u_z over z0 in the middle half, of what hangs together with the ends. No
 /// rows where fewer than two heights lie there. (B76)
-Gauge axial_gauge(const Assembly& assembly);
+Gauge axial_gauge(const Assembly& assembly, std::span<const Gid> left_out = {});
 
 /// Least-squares widening across the axis: of the lateral surface at mid-height (middle 40 %); of a
 /// disc on edge that of all particles there, along x. No rows where nothing lies there. (B78)

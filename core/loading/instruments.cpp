@@ -18,7 +18,7 @@ Instruments make_instruments(const World& w, const Assembly& a, const LoadTest& 
   in.grip = a.grip;
   in.sign = test.loading == Loading::tension ? -1.0 : 1.0;
   in.lateral_directions = a.space == Space::two_d ? 1 : 2;
-  if (a.grip == Support::ends) in.axial = axial_gauge(a);
+  if (a.grip == Support::ends) in.axial = axial_gauge(a, left_out);
   if (a.grip != Support::halves && a.grip != Support::vice) in.lateral = lateral_gauge(a, left_out);
   in.zeros = zeros ? *zeros
                    : Datum{gauge_now(w, in.axial), gauge_now(w, in.lateral), approach(w.platens),

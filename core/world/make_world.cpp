@@ -94,6 +94,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.work_of_free = work_of_free_for(options.instruction_set);
   w.undamaged_energy = undamaged_energy_for(options.instruction_set);
   w.confinement.current = options.current_surface;
+  w.confinement.impedance = std::sqrt(material.young_modulus * material.density);
   const bool cement = std::holds_alternative<ParallelBondLaw>(w.law) && w.features.rotation;
   if (material.rolling_friction > 0.0 || cement) w.bonds.couple.assign(w.bonds.padded, {});
   if (options.orientation) w.particles.orientation.assign(w.particles.padded, {});
