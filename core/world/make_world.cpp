@@ -64,7 +64,10 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.volume = assembly.volume();
   w.law = law_of_scene(material, factor.shear_ratio, options.features);
   const LoopKind kind{options.precision, options.ledger};
-  w.features = built_features(w.law, options.features, kind);
+  Features asked = options.features;
+  asked.unloading =
+      asked.plasticity && std::visit([](const auto& law) { return unloads_elsewhere(law); }, w.law);
+  w.features = built_features(w.law, asked, kind);
   std::visit(
       [&](const auto& law) {
         w.young = law.young;

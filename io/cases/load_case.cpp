@@ -170,6 +170,9 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
     if (c.precision == Precision::mixed)
       refuse(given->second.place, given->first, "is not built for run.precision = \"mixed\"; leave one out");
   }
+  for (const char* name : {"material.unloading_modulus", "material.yield_stress"})
+    if (const auto given = base.find(name); given != base.end() && c.precision == Precision::mixed)
+      refuse(given->second.place, given->first, "is not built for run.precision = \"mixed\"; leave one out");
   for (const char* name :
        {"material.shear_under_yield", "material.unloading_modulus", "material.yield_stress"})
     if (const auto given = base.find(name);

@@ -49,10 +49,10 @@ inline BondAction<R> bond_action(const Law& law, const BondConstants<R>& bond, c
   R elastic = u;
   if constexpr (features.plasticity) {
     const R before = h.plastic_stretch;
-    const bool may_yield = yield(law, bond, u, h.plastic_stretch);
+    const bool may_yield = yield<features.unloading>(law, bond, u, h.plastic_stretch);
     elastic = u - h.plastic_stretch;
     R elastic_growth = pair.stretching + (before - h.plastic_stretch);
-    if (unloads_elsewhere(law)) {  // (B118)
+    if constexpr (features.unloading) {  // (B118)
       const R was = carried_stretch(law, bond, u - pair.stretching, before);
       elastic = carried_stretch(law, bond, u, h.plastic_stretch);
       elastic_growth = elastic - was;

@@ -26,6 +26,8 @@ struct DempackLaw {
       Features{.rotation = false},  // before the next: a scene runs the first set that covers it
       Features{},
       Features{.criterion = Criterion::coupled},
+      Features{.unloading = true},
+      Features{.criterion = Criterion::coupled, .unloading = true},
   };
 
   double young = 0;        ///< Pa; E of the bonds: k_n = E A/L
@@ -97,6 +99,7 @@ template <class R>
 inline R carried_stretch(const DempackLaw& law, const BondConstants<R>& bond, const R& u, const R& plastic) {
   const R elastic = u - plastic;
   const R back = select(elastic < R(0.0) && plastic < R(0.0), R(law.unloads) * elastic, elastic);
+  if (!(law.yield_stress > law.limit_stress[0])) return back;
   const auto curve = on_curve(law, bond, u, plastic);
   if (!any(curve)) return back;
   const R strain = -u / strain_length(law.young, bond);
@@ -108,6 +111,7 @@ template <class R>
 inline R pressed_energy(const DempackLaw& law, const BondConstants<R>& bond, const R& u, const R& plastic) {
   const R carried = carried_stretch(law, bond, u, plastic);
   const R line = R(0.5) * bond.stiffness * carried * (u - plastic);
+  if (!(law.yield_stress > law.limit_stress[0])) return line;
   const auto curve = on_curve(law, bond, u, plastic);
   if (!any(curve)) return line;
   const R length = strain_length(law.young, bond);
@@ -116,18 +120,19 @@ inline R pressed_energy(const DempackLaw& law, const BondConstants<R>& bond, con
 
 /// Puts a compressive trial above the envelope back onto it; the plastic stretch takes the rest
 /// (P52).
+/// @tparam elsewhere  bonds may go back on another line than k_n (B118)
 /// @returns false where no bond is beyond its first limit
-template <class R>
+template <bool elsewhere, class R>
 inline bool yield(const DempackLaw& law, const BondConstants<R>& bond, const R& u, R& plastic) {
   R trial = -bond.stiffness * (u - plastic);  // N, positive in compression
-  if (law.unloads != 1.0) trial = select(plastic < R(0.0), R(law.unloads) * trial, trial);  // (B118)
+  if constexpr (elsewhere) trial = select(plastic < R(0.0), R(law.unloads) * trial, trial);
   const auto above_first = trial > R(law.limit_stress[0]) * bond.area;
   if (!any(above_first)) return false;
   const R strain = -u * bond.stiffness / (R(law.young) * bond.area);  // -u/strain_length
   const R limit = envelope_stress(law, strain) * bond.area;
   auto yields = above_first && trial > limit;
   R back = bond.stiffness;
-  if (law.unloads_elsewhere()) {  // (B118)
+  if constexpr (elsewhere) {
     yields = yields && limit >= R(law.yield_stress) * bond.area;
     back = back * R(law.unloads);
   }

@@ -59,7 +59,7 @@ inline R secant_ratio(const ExponentialLaw& law, const R& e) {
 }
 
 /// Puts a compressive trial above the envelope k_n L e_max + K2 L (e - e_max) back onto it. (B26)
-template <class R>
+template <bool elsewhere, class R>
 inline bool yield(const ExponentialLaw& law, const BondConstants<R>& bond, const R& u, R& plastic) {
   const R length = strain_length(law.young, bond);
   const R e = -u / length;

@@ -27,6 +27,7 @@ struct Features {
   bool plasticity = true;       ///< three-slope envelope in compression
   bool breakage = true;         ///< damage, failure, Coulomb friction afterwards
   Criterion criterion = Criterion::uncoupled;
+  bool unloading = false;  ///< bonds that have yielded go back on another line than k_n (B118)
 
   constexpr bool operator==(const Features&) const = default;
 
@@ -38,7 +39,7 @@ struct Features {
                asks_coupled = other.criterion == Criterion::coupled;
     return (rotation || !other.rotation) && (contact_damping || !other.contact_damping) &&
            (plasticity || !other.plasticity) && (breakage || !other.breakage) &&
-           (!other.breakage || coupled == asks_coupled);
+           (unloading || !other.unloading) && (!other.breakage || coupled == asks_coupled);
   }
 };
 

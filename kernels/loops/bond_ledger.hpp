@@ -43,7 +43,8 @@ inline LastForces<R> forces_before(const Law& law, const BondConstants<R>& bond,
   R elastic = u;
   if constexpr (features.plasticity) {
     elastic -= before.plastic_stretch;
-    if (unloads_elsewhere(law)) elastic = carried_stretch(law, bond, u, before.plastic_stretch);  // (B118)
+    if constexpr (features.unloading)
+      elastic = carried_stretch(law, bond, u, before.plastic_stretch);  // (B118)
   }
   return {bond.stiffness * elastic, viscous, R(1.0)};
 }
@@ -55,7 +56,7 @@ inline R stored_along(const Law& law, const BondConstants<R>& bond, const R& u, 
   R elastic = u;
   if constexpr (features.plasticity) {
     elastic -= h.plastic_stretch;
-    if (unloads_elsewhere(law))  // (B118)
+    if constexpr (features.unloading)  // (B118)
       return select(elastic < R(0.0), pressed_energy(law, bond, u, h.plastic_stretch),
                     R(0.5) * spring * elastic);
   }
@@ -84,7 +85,7 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
   R in_shear(0.0);                         // J, taken up by slip that is plastic
   if constexpr (features.plasticity) {
     loss.plastic = mean_spring * (h.plastic_stretch - before.plastic_stretch);  // (B51)
-    if (unloads_elsewhere(law)) {                                               // (B118)
+    if constexpr (features.unloading) {                                         // (B118)
       const R u = pair.distance - bond.rest_length;
       const R kept = stored_along<features>(law, bond, u, h, action.spring) -
                      stored_along<features>(law, bond, u - stretch, before, last.spring);

@@ -666,8 +666,8 @@ TEST_CASE(
     Parameters stiff_return;
     stiff_return.unloads = 1.7;
     stiff_return.yield_stress = onset;
-    hold_random<uncoupled>(stiff_return, 18);
-    hold_random<coupled>(stiff_return, 19);
+    hold_random<Features{.unloading = true}>(stiff_return, 18);
+    hold_random<Features{.criterion = Criterion::coupled, .unloading = true}>(stiff_return, 19);
   }
   Parameters tough_paths;
   tough_paths.G_I = 30;

@@ -10,7 +10,7 @@ namespace ref = breccia::reference;
 
 namespace {
 
-constexpr Features uncoupled{};
+constexpr Features uncoupled{.unloading = true};
 
 struct Sample {
   ref::Parameters p;
