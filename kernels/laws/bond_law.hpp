@@ -4,13 +4,12 @@
 //   defaults        what a case with this law gets where it does not say otherwise
 //   feature_sets     the scenes that a kernel is built for, from the leanest to the fullest
 //   of(material)     its constants from a material
-//   young, shear_ratio, failure
-// and, where it has plasticity, shear_follows (B107) and, beside it, yield<elsewhere>(law, bond, u, plastic),
-// which brings the plastic stretch up to date and says whether any may have yielded, and where a
-// bond may unload on another line than k_n, unloads_elsewhere, carried_stretch and pressed_energy
-// (B118); `stiffness_of`
-// and `limits_of` are overloaded where k_n is not E A/L or strengths are not stresses. It is
-// registered by its line in kernels/laws/bond_laws.hpp.
+//   young, shear_ratio, failure and, where it has plasticity, shear_follows (B107) and, beside it,
+// yield<elsewhere>(law, bond, u, plastic), which brings the plastic stretch up to date and says
+// whether any may have yielded, and where a bond may unload on another line than k_n,
+// unloads_elsewhere, carried_stretch and pressed_energy (B118); `stiffness_of` and `limits_of` are
+// overloaded where k_n is not E A/L or strengths are not stresses. It is registered by its line in
+// kernels/laws/bond_laws.hpp.
 #pragma once
 #include <limits>
 #include <string_view>
