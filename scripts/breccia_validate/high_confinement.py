@@ -73,7 +73,7 @@ def rolling(results, pictures):
         rows += [Row(f"{words}, {row.quantity}", row.breccia, row.experiment, row.paper, row.target, row.met, row.error, row.run_time)
                  for row in shapes(results[name])]
     return Outcome(rows, """`material.rolling_friction = 1`, (B116): a torque of k_s R^2 against rolling at broken bonds and contacts that slips at N R. It
-raises the deviator by a fifth and halves the fall after it (100 MPa: 39 for 61 %, 200 MPa: 22 for 56 %, rough platens), but makes no plateau of it:
+raises the deviator by a fifth and halves the fall after it (100 MPa: 39 for 63 %, 200 MPa: 22 for 48 %, rough platens), but makes no plateau of it:
 beyond 10 % of strain the specimen goes on dilating, as no test does. So rolling is one reason of the fall and not the only one; that broken bonds
 never crush, and keep tan 30 degrees each, is left. With smooth platens ends fail first (B117); at 500 MPa that specimen loses its load altogether
 beyond 8 % of strain, which is not understood. The sources do not say which resistance to rolling, if any, they had; it stays off
