@@ -3,20 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "core/boundary/rigid_contact.hpp"
 
 namespace breccia {
 namespace {
-
-constexpr std::uint64_t list_every = 64;  // steps
-
-struct Fastest {
-  double speed2 = 0;
-  Fastest& operator+=(const Fastest& o) {
-    speed2 = std::max(speed2, o.speed2);
-    return *this;
-  }
-};
 
 struct Pushes {
   std::array<double, 2> force{};
@@ -35,33 +26,13 @@ double depth(const EndWalls& walls, const Platens& platens, const ParticleTable&
   return outward * (p.position[row].z - plane) + p.radius[row];
 }
 
-void list_near(EndWalls& walls, const Platens& platens, const ParticleTable& p, const Partition& partition,
-               double dt, int threads) {
-  std::vector<Fastest> blocks;
-  const Fastest most = sum_particles(partition, threads, blocks, [&](std::size_t row) {
-    return Fastest{dot(p.velocity[row], p.velocity[row])};
-  });
-  // both may move, and speed up, before the list is made anew
-  const double margin = 4.0 * static_cast<double>(list_every) * dt * std::sqrt(most.speed2);
-  std::vector<Row> mine;
-  const Rows free = partition.owned(0, p.free);
-  for (std::size_t row = free.first; row < free.last; ++row)
-    if (depth(walls, platens, p, row, 0) > -margin || depth(walls, platens, p, row, 1) > -margin)
-      mine.push_back(static_cast<Row>(row));
-  walls.rows = partition.ranks.alone()
-                   ? std::move(mine)
-                   : gather_elements_everywhere(partition.ranks, std::span<const Row>(mine));
-  walls.force.assign(walls.rows.size(), 0.0);
-}
-
 }  // namespace
 
 EndWalls make_end_walls(const Assembly& a, double young_modulus, double alpha) {
   EndWalls walls;
   walls.enabled = (a.grip == Support::ends && a.particles.free < a.particles.size) || a.planes;
   if (a.planes) walls.half_width = 0.5 * a.strip_width;
-  // (B111): as a bond of two equal spheres, pi r^2 alpha E/(2 r)
-  walls.stiffness = 0.5 * std::numbers::pi * alpha * young_modulus;
+  walls.stiffness = rigid_contact_stiffness(young_modulus, alpha);
   constexpr double far = std::numeric_limits<double>::infinity();
   walls.place = {far, -far};
   for (std::size_t row = 0; row < a.particles.size; ++row) {
@@ -76,8 +47,12 @@ void push_back(EndWalls& walls, const Platens& platens, ParticleTable& p, const 
                std::uint64_t step, double dt, int threads) {
   if (!walls.enabled) return;
   if (step >= walls.next_list) {
-    list_near(walls, platens, p, partition, dt, threads);
-    walls.next_list = step - step % list_every + list_every;
+    // the speed of planes, which move with the held layers, is among those of spheres
+    walls.rows = rows_that_may_touch(p, partition, dt, threads, 0.0, [&](std::size_t row) {
+      return std::max(depth(walls, platens, p, row, 0), depth(walls, platens, p, row, 1));
+    });
+    walls.force.assign(walls.rows.size(), 0.0);
+    walls.next_list = next_list_after(step);
   }
   walls.push = {};
   if (walls.rows.empty()) return;

@@ -102,6 +102,7 @@ void set_face_weights(Confinement& c, const Assembly& a) {
   const Body& body = a.body;
   c.weight_x = weights(&Vec3::x, body.diameter, body.depth * body.height);
   c.weight = weights(&Vec3::y, body.depth, body.diameter * body.height);
+  c.surface_y = 2.0 * body.diameter * body.height;
 }
 
 }  // namespace
@@ -213,7 +214,7 @@ bool has_left(const ParticleTable& p, Row row, double Vec3::*across) {
 }
 
 /// @param weight  m^2, of each row, positive on the face at the positive end
-/// @returns Pa, that acts
+/// @returns N, the inward force on both faces
 double press_pair_of_faces(Confinement& c, ParticleTable& particles, const Partition& partition,
                            double pressure, std::span<const double> weight, double Vec3::*normal,
                            double Vec3::*across) {
@@ -246,15 +247,14 @@ double press_pair_of_faces(Confinement& c, ParticleTable& particles, const Parti
     c.force[k].*normal += f;
     particles.force[c.rows[k]].*normal += f;
   });
-  double surface = 0.0;
-  for (const double w : weight) surface += std::abs(w);
-  return (s.inward - by[0] * s.side - by[1] * s.side_u - by[2] * s.side_z) / (c.grown * surface);
+  return s.inward - by[0] * s.side - by[1] * s.side_u - by[2] * s.side_z;
 }
 
 void press_faces(Confinement& c, ParticleTable& particles, const Partition& partition) {
   for_owned_entries(partition, c.rows, [&](std::size_t k) { c.force[k] = {}; });
   press_pair_of_faces(c, particles, partition, c.pressure_x, c.weight_x, &Vec3::x, &Vec3::y);
-  c.acting = press_pair_of_faces(c, particles, partition, c.pressure, c.weight, &Vec3::y, &Vec3::x);
+  const double on_y = press_pair_of_faces(c, particles, partition, c.pressure, c.weight, &Vec3::y, &Vec3::x);
+  c.acting = on_y / (c.grown * c.surface_y);
 }
 
 /// Of places, and of the radial forces that the pressure makes.

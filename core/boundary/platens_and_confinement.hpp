@@ -57,6 +57,7 @@ struct Confinement {
   double pressure_x = 0;  ///< Pa, of a box on its faces normal to x; `pressure` on those normal to y
   double acting = 0;   ///< Pa, inward forces of this step over the nominal surface; of a rigid wall the same
   double surface = 0;  ///< m^2, nominal
+  double surface_y = 0;  ///< m^2, nominal, of a box its faces normal to y
   bool current = false;  ///< pressure acts on the surface as it is now
   double grown = 1;      ///< of the surface, by what it has become larger; 1 where it does not count
   double height = 0;     ///< m, of the specimen when it was made

@@ -2,21 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
+
+#include "core/boundary/rigid_contact.hpp"
 
 namespace breccia {
 namespace {
-
-constexpr std::uint64_t list_every = 64;  // steps
-
-struct Fastest {
-  double speed2 = 0;
-  Fastest& operator+=(const Fastest& o) {
-    speed2 = std::max(speed2, o.speed2);
-    return *this;
-  }
-};
 
 /// Where the tool and a sphere meet.
 struct Touch {
@@ -31,23 +21,6 @@ Touch touch_of(const Tool& tool, const Vec3& centre, double radius) {
   // a centre on the face itself is pushed ahead
   const Vec3 normal = distance > 0.0 ? (1.0 / distance) * away : Vec3{1, 0, 0};
   return {normal, inside ? radius + distance : radius - distance};
-}
-
-void list_near(Tool& tool, const ParticleTable& p, const Partition& partition, double dt) {
-  std::vector<Fastest> blocks;
-  const Fastest most = sum_particles(
-      partition, 1, blocks, [&](std::size_t row) { return Fastest{dot(p.velocity[row], p.velocity[row])}; });
-  // both may move, and speed up, before the list is made anew
-  const double margin =
-      4.0 * static_cast<double>(list_every) * dt * (std::sqrt(most.speed2) + std::abs(tool.speed));
-  std::vector<Row> mine;
-  const Rows free = partition.owned(0, p.free);
-  for (std::size_t row = free.first; row < free.last; ++row)
-    if (touch_of(tool, p.position[row], p.radius[row]).depth > -margin) mine.push_back(static_cast<Row>(row));
-  tool.rows = partition.ranks.alone()
-                  ? std::move(mine)
-                  : gather_elements_everywhere(partition.ranks, std::span<const Row>(mine));
-  tool.force.assign(tool.rows.size(), {});
 }
 
 /// (B119): normal spring, and friction that opposes the slip of the centre past the tool.
@@ -77,10 +50,10 @@ Tool make_tool(const Cutting& c, const Assembly& a, double young_modulus, double
   // across the whole block: spheres at its sides reach over its faces a little
   tool.half_width = c.width > 0.0 ? 0.5 * c.width : a.body.depth;
   tool.area = c.depth * width;
-  tool.stiffness = 0.5 * std::numbers::pi * alpha * young_modulus;  // (B111)
+  tool.stiffness = rigid_contact_stiffness(young_modulus, alpha);
   tool.friction = c.friction;
   tool.tip_z = 0.5 * a.body.height - c.depth;
-  // as near as it can stand without touching: half its way is sought as often as a double halves
+  // as near as it can stand without touching, by bisection
   double low = -2.0 * a.body.diameter, high = 0.0;
   for (int k = 0; k < 60; ++k) {
     tool.tip_x = 0.5 * (low + high);
@@ -115,8 +88,11 @@ NearestOnTool nearest_on_tool(const Tool& tool, const Vec3& place) {
 void press_tool(Tool& tool, ParticleTable& p, const Partition& partition, std::uint64_t step, double dt) {
   if (!tool.enabled) return;
   if (step >= tool.next_list) {
-    list_near(tool, p, partition, dt);
-    tool.next_list = step - step % list_every + list_every;
+    tool.rows = rows_that_may_touch(p, partition, dt, 1, std::abs(tool.speed), [&](std::size_t row) {
+      return touch_of(tool, p.position[row], p.radius[row]).depth;
+    });
+    tool.force.assign(tool.rows.size(), {});
+    tool.next_list = next_list_after(step);
   }
   std::vector<Vec3> blocks;
   const Vec3 all =
