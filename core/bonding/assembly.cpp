@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/bonding/bond_area.hpp"
+#include "core/bonding/several_materials.hpp"
 #include "core/geometry/cell_list.hpp"
 #include "core/geometry/space_curve.hpp"
 #include "kernels/loops/bond_pass.hpp"
@@ -84,12 +85,19 @@ struct Link {
   double length;
 };
 
-/// Both ends in one cohesive group, lower id first.
-std::vector<Link> links_within(const ParticleTable& p, const std::vector<int>& group, double range,
-                               int threads) {
+/// Who is bonded to whom.
+struct Groups {
+  std::vector<int> of;  ///< cohesive group of each particle
+  bool across = false;  ///< bonds between groups
+
+  bool are_bonded(Row a, Row b) const { return of[a] != 0 && of[b] != 0 && (across || of[a] == of[b]); }
+};
+
+/// Both ends may be bonded, lower id first.
+std::vector<Link> links_within(const ParticleTable& p, const Groups& groups, double range, int threads) {
   std::vector<Link> links;
   for (const auto& [a, b] : near_pairs(p.position, p.radius, range, 0.0, threads)) {  // (P16)
-    if (group[a] == 0 || group[a] != group[b]) continue;
+    if (!groups.are_bonded(a, b)) continue;
     const double length = norm(p.position[b] - p.position[a]);
     links.push_back(p.gid[a] < p.gid[b] ? Link{a, b, length} : Link{b, a, length});
   }
@@ -97,14 +105,13 @@ std::vector<Link> links_within(const ParticleTable& p, const std::vector<int>& g
 }
 
 /// beta for a wanted coordination number, from the pairs' own ratios: exact to one bond. (B7)
-double range_for_coordination(const ParticleTable& p, const std::vector<int>& group, double wanted,
-                              int threads) {
+double range_for_coordination(const ParticleTable& p, const Groups& groups, double wanted, int threads) {
   double widest = 0.2;
   std::vector<double> ratios;
   const auto count = static_cast<std::size_t>(std::llround(0.5 * wanted * static_cast<double>(p.size)));
   for (; widest < 2.0; widest *= 1.6) {
     ratios.clear();
-    for (const Link& l : links_within(p, group, widest, threads))
+    for (const Link& l : links_within(p, groups, widest, threads))
       ratios.push_back(l.length / (p.radius[l.lo] + p.radius[l.hi]) - 1.0);
     if (ratios.size() > count) break;
   }
@@ -115,8 +122,14 @@ double range_for_coordination(const ParticleTable& p, const std::vector<int>& gr
   return ratios[count - 1] + 1e-12;
 }
 
+/// Row in the scene's materials: the first is everybody's.
+LawIndex material_of(const std::vector<int>& groups, int group) {
+  const auto at = std::find(groups.begin(), groups.end(), group);
+  return at == groups.end() ? LawIndex{0} : static_cast<LawIndex>(at - groups.begin() + 1);
+}
+
 /// Fills the bond table; sorted links, padded with copies of the last that have no stiffness.
-void set_bonds(Assembly& a, const std::vector<Link>& links, const Features& features) {
+void set_bonds(Assembly& a, const std::vector<Link>& links, const Features& features, std::size_t materials) {
   const ParticleTable& p = a.particles;
   BondTable& b = a.bonds;
   b.resize(links.size(), features, bond_batch);
@@ -127,6 +140,7 @@ void set_bonds(Assembly& a, const std::vector<Link>& links, const Features& feat
     b.row_lo[row] = l.lo;
     b.row_hi[row] = l.hi;
     b.rest_length[row] = l.length;
+    if (!b.law.empty()) b.law[row] = law_between(p.material[l.lo], p.material[l.hi], materials);
   }
 }
 
@@ -148,7 +162,7 @@ void set_areas(Assembly& a, const BondingRule& rule, const Features& features, i
   }
   if (kept.empty()) fail<BadInput>("bonds.area: no bond of this specimen has an area; use \"minimum\"");
   a.dropped_bonds = a.bonds.size - kept.size();
-  if (a.dropped_bonds > 0) set_bonds(a, kept, features);
+  if (a.dropped_bonds > 0) set_bonds(a, kept, features, rule.materials.size() + 1);
   BondTable& b = a.bonds;
   if (!strength.empty()) b.strength_area.resize(b.padded);
   for (std::size_t row = 0; row < b.padded; ++row) {
@@ -210,14 +224,15 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
 
   ParticleTable& p = a.particles;
   p.resize(n, features);
-  std::vector<int> group(n);
+  Groups groups{std::vector<int>(n), rule.across};
   const auto order = order_of(specimen, part_of, a.planes);
   for (std::size_t row = 0; row < n; ++row) {
     const SpecimenSphere& s = specimen.spheres[order[row]];
     p.gid[row] = s.id;
     p.radius[row] = s.radius;
     p.position[row] = p.reference_position[row] = s.centre;
-    group[row] = s.group;
+    groups.of[row] = s.group;
+    if (!p.material.empty()) p.material[row] = material_of(rule.materials, s.group);
     const Part part = a.planes ? free_part : part_of(s);
     if (part == free_part) p.free = row + 1;
     if (part != upper_part) a.first_top = row + 1;
@@ -240,8 +255,8 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
         "end: {:.3g} m, where the body has {:.3g} m; take a higher body or smaller spheres",
         8.0 * a.mean_radius, body.height);
 
-  a.range = rule.coordination ? range_for_coordination(p, group, *rule.coordination, threads) : rule.range;
-  std::vector<Link> links = links_within(p, group, a.range, threads);
+  a.range = rule.coordination ? range_for_coordination(p, groups, *rule.coordination, threads) : rule.range;
+  std::vector<Link> links = links_within(p, groups, a.range, threads);
   if (links.empty())
     fail<BadInput>(
         "{}: no bond found within a range of {} of the radii; check bonds.range and the unit of the file",
@@ -251,7 +266,7 @@ Assembly assemble(const Specimen& specimen, const Body& body, const BondingRule&
            std::pair(std::min(y.lo, y.hi), std::max(y.lo, y.hi));
   });
 
-  set_bonds(a, links, features);
+  set_bonds(a, links, features, rule.materials.size() + 1);
   set_areas(a, rule, features, threads);
   a.coordination = 2.0 * static_cast<double>(a.bonds.size) / static_cast<double>(n);
   return a;

@@ -27,6 +27,8 @@ struct BondingRule {
   Space space = Space::three_d;
   Support grip = Support::ends;
   Strips strips{};
+  std::vector<int> materials{};  ///< cohesive groups that have a material of their own
+  bool across = false;           ///< spheres of different groups are bonded too
 };
 
 struct Assembly {

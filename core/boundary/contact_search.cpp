@@ -7,8 +7,10 @@
 
 #include "core/base/error.hpp"
 #include "core/base/threads.hpp"
+#include "core/bonding/several_materials.hpp"
 #include "core/elastic/touching.hpp"
 #include "core/geometry/cell_list.hpp"
+#include "core/tables/laws.hpp"
 
 namespace breccia {
 namespace {
@@ -37,6 +39,17 @@ struct EvenStretch {
     return *this;
   }
 };
+
+/// (B126): the step, and with it the dashpot, count with the stiffness of an overlap of a tenth of
+/// the smaller radius.
+void set_hertz(ContactTable& c, std::size_t k, const ContactMaterial& material, double r, double s) {
+  const HertzConstants h =
+      hertz_constants(of_law(material.young, c.law, k), of_law(material.poisson, c.law, k), r * s / (r + s));
+  c.hertz_normal[k] = h.normal;
+  c.hertz_tangential[k] = h.tangential;
+  const double root = std::sqrt(0.1 * std::min(r, s)), ratio = of_law(material.shear_ratio, c.law, k);
+  c.stiffness[k] = std::max(1.5 * h.normal, ratio > 0.0 ? h.tangential / ratio : 0.0) * root;
+}
 
 /// Lists at a fixed distance: what may have met before this one was missed.
 void check_interval(NeighbourList& s, double used, std::uint64_t step) {
@@ -119,8 +132,8 @@ bool rebuild_is_due(NeighbourList& s, const ParticleTable& p, const Partition& p
 }
 
 void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const ParticleTable& p,
-                            const ContactMaterial& material, const Features& features, bool ledger,
-                            int threads) {
+                            const ContactMaterial& material, int threads) {
+  const auto& [features, ledger, rolls, hertz] = material.columns;
   const bool first_list = !s.awake;
   s.awake = true;
   s.slack = s.skin;
@@ -137,15 +150,12 @@ void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const Part
   for (std::size_t k = 0; k < before.size; ++k) {
     const double touch = p.radius[before.row_lo[k]] + p.radius[before.row_hi[k]];
     if (before.free_length[k] != touch || !(before.shear_force[k] == Vec3{}) ||
-        (ledger && before.viscous_force[k] != 0.0) || (material.rolls && !(before.couple[k] == Vec3{})))
+        (ledger && before.viscous_force[k] != 0.0) || (rolls && !(before.couple[k] == Vec3{})))
       known.push_back({std::minmax(before.row_lo[k], before.row_hi[k]), k});
   }
   std::sort(known.begin(), known.end());
 
-  contacts = ContactTable{};
-  contacts.resize(pairs.size(), features);
-  if (ledger) contacts.viscous_force.assign(contacts.padded, 0.0);
-  if (material.rolls) contacts.couple.assign(contacts.padded, {});
+  contacts = contact_table(pairs.size(), material.columns);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [lo, hi] = p.gid[pairs[k].a] < p.gid[pairs[k].b] ? std::pair(pairs[k].a, pairs[k].b)
                                                                 : std::pair(pairs[k].b, pairs[k].a);
@@ -155,9 +165,12 @@ void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const Part
     contacts.gid_hi[k] = p.gid[hi];
     contacts.row_lo[k] = lo;
     contacts.row_hi[k] = hi;
+    if (!contacts.law.empty())
+      contacts.law[k] = law_between(p.material[lo], p.material[hi], material.materials);
     // (B30)
-    contacts.stiffness[k] =
-        contact_stiffness(material.young, material.alpha, material.space, p.radius[lo], p.radius[hi]);
+    contacts.stiffness[k] = contact_stiffness(of_law(material.young, contacts.law, k), material.alpha,
+                                              material.space, p.radius[lo], p.radius[hi]);
+    if (hertz) set_hertz(contacts, k, material, p.radius[lo], p.radius[hi]);
     if (features.rotation) contacts.arm_offset[k] = contact_arm_offset(p.radius[lo], p.radius[hi]);
     // pairs that overlap unbonded from the start are free of stress where they are
     contacts.free_length[k] = first_list ? std::min(touch, distance) : touch;  // (B31)
@@ -167,7 +180,7 @@ void rebuild_neighbour_list(NeighbourList& s, ContactTable& contacts, const Part
       contacts.free_length[k] = before.free_length[found->second];
       contacts.shear_force[k] = before.shear_force[found->second];
       if (ledger) contacts.viscous_force[k] = before.viscous_force[found->second];
-      if (material.rolls) contacts.couple[k] = before.couple[found->second];
+      if (rolls) contacts.couple[k] = before.couple[found->second];
     }
   }
 }

@@ -44,17 +44,17 @@ inline double contact_arm_offset(double radius_lo, double radius_hi) {
 
 /// What a new contact is made of.
 struct ContactMaterial {
-  double young = 0;  ///< Pa
+  std::span<const double> young, poisson;  ///< Pa, 1: one, or by law
+  std::span<const double> shear_ratio;     ///< k_s/k_n: one, or by law
+  std::size_t materials = 1;
   double alpha = 0;  ///< area factor, as of the bonds
   Space space = Space::three_d;
-  bool rolls = false;  ///< there is friction against rolling
+  ContactColumns columns{};
 };
 
 /// Makes the list of candidates anew, their dashpots not yet set; pairs that were in contact keep
 /// their history.
-/// @param ledger  with the columns that an energy ledger needs
 void rebuild_neighbour_list(NeighbourList& search, ContactTable& contacts, const ParticleTable& particles,
-                            const ContactMaterial& material, const Features& features, bool ledger,
-                            int threads);
+                            const ContactMaterial& material, int threads);
 
 }  // namespace breccia

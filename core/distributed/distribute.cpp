@@ -2,6 +2,7 @@
 
 #include "core/distributed/halo.hpp"
 #include "core/ranks/pairs_of_rank.hpp"
+#include "core/world/loop_views.hpp"
 #include "core/world/scatter_plans.hpp"
 #include "core/world/stable_step.hpp"
 
@@ -60,9 +61,7 @@ void broadcast_contacts(World& w) {
   if (whole) {
     listed = whole->contacts;
   } else {
-    listed.resize(step.contacts, w.features);
-    if (w.ledger.enabled) listed.viscous_force.assign(listed.padded, 0.0);
-    if (w.material.rolling_friction > 0.0) listed.couple.assign(listed.padded, {});
+    listed = contact_table(step.contacts, contact_columns(w));
   }
   listed.for_each_column([&]<class T>(const ColumnInfo&, Column<T>& column) {
     broadcast(ranks, column.data(), column.size() * sizeof(T));

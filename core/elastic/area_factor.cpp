@@ -7,6 +7,7 @@
 #include "core/bonding/law_of_material.hpp"
 #include "core/bonding/section_area.hpp"
 #include "core/elastic/elastic_network.hpp"
+#include "core/tables/laws.hpp"
 
 namespace breccia {
 namespace {
@@ -28,8 +29,9 @@ double affine_alpha(double fabric, double kappa, Space space) {
 ElasticResponse probe_with(const Assembly& a, const AreaFactorRequest& r, double kappa, int threads,
                            const Touching& touching) {
   const BondLaw law = law_of(r.material, kappa);
-  const double ratio = std::visit([](const auto& l) { return l.shear_ratio; }, law);
-  return probe(a, bond_stiffness(law, a.particles, a.bonds), ratio, r.rough_platens, threads, touching);
+  const double ratio = shear_ratio_of(law);
+  return probe(a, bond_stiffness({&law, 1}, a.particles, a.bonds), {&ratio, 1}, r.rough_platens, threads,
+               touching);
 }
 
 /// (B104): (B14) with the bonds' own area through levels of the middle part instead of T of the
@@ -37,8 +39,8 @@ ElasticResponse probe_with(const Assembly& a, const AreaFactorRequest& r, double
 /// 40 % too large for 13,000 to 100 spheres; this one is right to 6 % in packings.
 double affine_of_levels(const Assembly& a, const Material& material, double kappa) {
   const BondLaw law = law_of(material, kappa);
-  const double ratio = std::visit([](const auto& l) { return l.shear_ratio; }, law);
-  std::vector<double> area = bond_stiffness(law, a.particles, a.bonds);
+  const double ratio = shear_ratio_of(law);
+  std::vector<double> area = bond_stiffness({&law, 1}, a.particles, a.bonds);
   for (std::size_t k = 0; k < area.size(); ++k) area[k] *= a.bonds.rest_length[k] / material.young_modulus;
   const double reach = 0.4 * a.length();  // the levels of the thesis' table 5.1, away from the ends
   const double through = area_through_levels(a.particles, a.bonds, area, -reach, reach, 41).mean;
@@ -49,8 +51,7 @@ double affine_of_levels(const Assembly& a, const Material& material, double kapp
 
 Touching touching_of(const Assembly& a, const Material& material, double kappa, int threads) {
   const BondLaw law = law_of(material, kappa);
-  const double friction = std::visit([](const auto& l) { return l.failure.friction_dynamic; }, law);
-  return touching_pairs(a, material.young_modulus, friction, threads);
+  return touching_pairs(a, material.young_modulus, friction_of(law), threads);
 }
 
 namespace {

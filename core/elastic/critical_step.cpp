@@ -9,6 +9,7 @@
 #include "core/base/largest_eigenvalue.hpp"
 #include "core/base/threads.hpp"
 #include "core/elastic/elastic_network.hpp"
+#include "core/tables/laws.hpp"
 #include "kernels/loops/integrate.hpp"
 
 namespace breccia {
@@ -40,6 +41,12 @@ bool can_press(const StepScene& s, std::size_t k) {
   return norm(x[s.bonds.row_hi[k]] - x[s.bonds.row_lo[k]]) <= s.bonds.rest_length[k] + s.reach;
 }
 
+/// k_s/k_n of a bond, or of a contact: rows as of an elastic network.
+double shear_ratio_at(const StepScene& s, std::size_t k) {
+  return k < s.bonds.size ? of_law(s.shear_ratio, s.bonds.law, k)
+                          : of_law(s.shear_ratio, s.contacts.law, k - s.bonds.size);
+}
+
 /// dt^2 K/4 + dt C/2 of a bond, or of a contact: rows as of an elastic network. (B42)
 SpringConstants step_constants(const StepScene& s, std::size_t k, double dt) {
   const bool bond = k < s.bonds.size;
@@ -48,7 +55,7 @@ SpringConstants step_constants(const StepScene& s, std::size_t k, double dt) {
   const double stiff = 0.25 * dt * dt * (bond ? s.bonds.stiffness[k] : s.contacts.stiffness[c]);
   const double dashpot = bond ? bond_dashpot(s.dashpots, s.particles, s.bonds, k, dt)
                               : contact_dashpot(s.dashpots, s.particles, s.contacts, c, dt);
-  SpringConstants spring{stiff + 0.5 * dt * dashpot, s.shear_ratio * stiff};
+  SpringConstants spring{stiff + 0.5 * dt * dashpot, shear_ratio_at(s, k) * stiff};
   if (bond && s.freedom.cement && bond_state(s.bonds, k) == BondState::intact) {
     const MomentStiffness m = moment_stiffness(stiff, spring.shear, s.bonds.area[k], s.freedom.plane);
     spring.bend = m.bend, spring.twist = m.twist;
@@ -111,19 +118,21 @@ double first_guess(const StepScene& s) {
   std::vector<double> sum(s.particles.size, 0.0);
   const auto each = [&](auto&& visit) {
     for (std::size_t k = 0; k < s.bonds.size; ++k)
-      visit(s.bonds.row_lo[k], s.bonds.row_hi[k], s.bonds.rest_length[k], s.bonds.stiffness[k]);
+      visit(s.bonds.row_lo[k], s.bonds.row_hi[k], s.bonds.rest_length[k], s.bonds.stiffness[k],
+            shear_ratio_at(s, k));
     for (std::size_t k = 0; k < s.contacts.size; ++k) {
       const Row lo = s.contacts.row_lo[k], hi = s.contacts.row_hi[k];
-      visit(lo, hi, s.particles.radius[lo] + s.particles.radius[hi], s.contacts.stiffness[k]);
+      visit(lo, hi, s.particles.radius[lo] + s.particles.radius[hi], s.contacts.stiffness[k],
+            shear_ratio_at(s, s.bonds.size + k));
     }
   };
-  each([&](Row lo, Row hi, double length, double k_n) {
-    const auto [at_lo, at_hi] = norms(s, lo, hi, length, {k_n, s.shear_ratio * k_n});
+  each([&](Row lo, Row hi, double length, double k_n, double ratio) {
+    const auto [at_lo, at_hi] = norms(s, lo, hi, length, {k_n, ratio * k_n});
     sum[lo] += at_lo;
     sum[hi] += at_hi;
   });
   double largest = 0.0;
-  each([&](Row lo, Row hi, double, double) { largest = std::max(largest, sum[lo] + sum[hi]); });
+  each([&](Row lo, Row hi, double, double, double) { largest = std::max(largest, sum[lo] + sum[hi]); });
   return 2.0 / std::sqrt((1.0 + s.global_damping) * largest);
 }
 
@@ -207,7 +216,7 @@ std::vector<double> own_time_steps(const StepScene& s) {
   const ElasticNetwork net =
       elastic_network(s.particles, s.bonds, s.contacts, s.freedom.rotation, s.threads, [&](std::size_t k) {
         const double k_n = k < s.bonds.size ? s.bonds.stiffness[k] : s.contacts.stiffness[k - s.bonds.size];
-        return SpringConstants{k_n, s.shear_ratio * k_n};
+        return SpringConstants{k_n, shear_ratio_at(s, k) * k_n};
       });
   const Eigen::VectorXd by_mass = roots_of_masses(s);
   std::vector<double> steps(s.particles.size);

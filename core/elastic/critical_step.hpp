@@ -21,9 +21,9 @@ struct StepScene {
   const BondTable& bonds;        ///< each intact and pressed; a broken one unless it is open beyond `reach`
   const ContactTable& contacts;  ///< each pressed
   const Dashpots& dashpots;
-  double shear_ratio = 0;     ///< k_s/k_n
-  double global_damping = 0;  ///< alpha, the larger of the two factors
-  double reach = 0;           ///< m, that particles may approach each other
+  std::span<const double> shear_ratio;  ///< k_s/k_n: one, or by law
+  double global_damping = 0;            ///< alpha, the larger of the two factors
+  double reach = 0;                     ///< m, that particles may approach each other
   Freedom freedom;
   int threads = 1;
 };

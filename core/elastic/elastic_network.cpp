@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/base/threads.hpp"
 #include "core/elastic/gauges.hpp"
+#include "core/tables/laws.hpp"
 
 namespace breccia {
 namespace {
@@ -158,16 +159,15 @@ Eigen::VectorXd stiffness_diagonal(const ElasticNetwork& net) {
 
 }  // namespace
 
-std::vector<double> bond_stiffness(const BondLaw& law, const ParticleTable& p, const BondTable& b) {
+std::vector<double> bond_stiffness(std::span<const BondLaw> laws, const ParticleTable& p,
+                                   const BondTable& b) {
   std::vector<double> k_n(b.size);
-  std::visit(
-      [&](const auto& l) {
-        for (std::size_t k = 0; k < b.size; ++k)
-          k_n[k] =
-              stiffness_of(l, b.area[k],
-                           strain_length_of(b.rest_length[k], p.radius[b.row_lo[k]] + p.radius[b.row_hi[k]]));
-      },
-      law);
+  with_laws(laws, b.law, [&](const auto& law_of) {
+    for (std::size_t k = 0; k < b.size; ++k)
+      k_n[k] =
+          stiffness_of(law_of(k), b.area[k],
+                       strain_length_of(b.rest_length[k], p.radius[b.row_lo[k]] + p.radius[b.row_hi[k]]));
+  });
   return k_n;
 }
 
@@ -236,8 +236,9 @@ SpringConstants pressed(const ElasticNetwork& net, std::size_t spring, const Eig
 
 }  // namespace
 
-ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, double shear_ratio, bool rough,
-                      int threads, const Touching& touching) {
+ElasticResponse probe(const Assembly& a, std::span<const double> stiffness,
+                      std::span<const double> shear_ratio, bool rough, int threads,
+                      const Touching& touching) {
   const ParticleTable& p = a.particles;
   const Gauge axial_strain = axial_gauge(a), lateral_strain = lateral_gauge(a);
   if (axial_strain.rows.empty())
@@ -248,7 +249,7 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
   std::vector<SpringConstants> contact(c.size);
   const auto constants = [&](std::size_t k) {
     if (k >= a.bonds.size) return contact[k - a.bonds.size];
-    SpringConstants spring{stiffness[k], shear_ratio * stiffness[k]};
+    SpringConstants spring{stiffness[k], of_law(shear_ratio, a.bonds.law, k) * stiffness[k]};
     if (a.cement) {
       const MomentStiffness m =
           moment_stiffness(spring.normal, spring.shear, a.bonds.area[k], a.space == Space::two_d);
@@ -277,7 +278,7 @@ ElasticResponse probe(const Assembly& a, std::span<const double> stiffness, doub
   for (int turn = 0; turn < most_turns; ++turn) {
     for (std::size_t k = 0; k < c.size; ++k) {
       const SpringConstants now =
-          pressed(net, a.bonds.size + k, u, c.stiffness[k], shear_ratio, touching.friction);
+          pressed(net, a.bonds.size + k, u, c.stiffness[k], of_law(shear_ratio, c.law, k), touching.friction);
       // half of the way: what opens in one turn would be pressed again in the next
       const double part = turn == 0 ? 1.0 : 0.5;
       contact[k].normal += part * (now.normal - contact[k].normal);

@@ -81,16 +81,18 @@ struct ElasticResponse {
 };
 
 /// k_n of every bond that is not padding, N/m, with the areas that the table has now.
-std::vector<double> bond_stiffness(const BondLaw& law, const ParticleTable& particles,
+/// @param laws  one, or one for each pair of materials
+std::vector<double> bond_stiffness(std::span<const BondLaw> laws, const ParticleTable& particles,
                                    const BondTable& bonds);
 
 /// @param stiffness    N/m, k_n per bond
-/// @param shear_ratio  k_s/k_n
+/// @param shear_ratio  k_s/k_n: one, or by law
 /// @param rough  lateral motion of the layers fixed
 /// @param touching  pairs without a bond: they press where the specimen brings them nearer, and
 ///                  slide where friction does not hold them
 /// @throws BadInput when the specimen is not connected from end to end
-ElasticResponse probe(const Assembly& assembly, std::span<const double> stiffness, double shear_ratio,
-                      bool rough, int threads, const Touching& touching = {});
+ElasticResponse probe(const Assembly& assembly, std::span<const double> stiffness,
+                      std::span<const double> shear_ratio, bool rough, int threads,
+                      const Touching& touching = {});
 
 }  // namespace breccia

@@ -16,19 +16,17 @@ void for_each_force(const World& w, std::size_t bonds, std::size_t contacts, con
   const ParticleTable& p = w.particles;
   const BondTable& b = w.bonds;
   const bool coupled = w.features.criterion == Criterion::coupled;
-  std::visit(
-      [&](const auto& law) {
-        for (std::size_t k = 0; k < bonds; ++k) {
-          if (b.stiffness[k] == 0.0) continue;
-          const Vec3 l = p.position[b.row_hi[k]] - p.position[b.row_lo[k]];
-          const double distance = norm(l);
-          const Vec3 n = (1.0 / distance) * l;
-          const BondForce<double> f =
-              force_of_state(law, constants_of_bond(b, k), history_of_bond(b, k), distance, coupled);
-          add(b.row_lo[k], b.row_hi[k], n, distance, f.normal * n + f.shear);
-        }
-      },
-      w.law);
+  with_laws(w.laws, b.law, [&](const auto& law_of) {
+    for (std::size_t k = 0; k < bonds; ++k) {
+      if (b.stiffness[k] == 0.0) continue;
+      const Vec3 l = p.position[b.row_hi[k]] - p.position[b.row_lo[k]];
+      const double distance = norm(l);
+      const Vec3 n = (1.0 / distance) * l;
+      const BondForce<double> f =
+          force_of_state(law_of(k), constants_of_bond(b, k), history_of_bond(b, k), distance, coupled);
+      add(b.row_lo[k], b.row_hi[k], n, distance, f.normal * n + f.shear);
+    }
+  });
   const ContactTable& c = w.contacts;
   for (std::size_t k = 0; k < contacts; ++k) {
     if (c.stiffness[k] == 0.0) continue;
@@ -36,7 +34,7 @@ void for_each_force(const World& w, std::size_t bonds, std::size_t contacts, con
     const double distance = norm(l), overlap = c.free_length[k] - distance;
     if (overlap <= 0.0) continue;
     const Vec3 n = (1.0 / distance) * l;
-    add(c.row_lo[k], c.row_hi[k], n, distance, (-c.stiffness[k] * overlap) * n + c.shear_force[k]);
+    add(c.row_lo[k], c.row_hi[k], n, distance, -pressed_force(c, k, overlap) * n + c.shear_force[k]);
   }
 }
 
@@ -76,23 +74,24 @@ double held_pressure(const World& w) {
   };
   const bool coupled = w.features.criterion == Criterion::coupled;
   const BondTable& b = w.bonds;
-  const auto bonds_hold = [&](const auto& law) {
+  const auto bonds_hold = [&](const auto& law_of) {
     return sum_pairs(w.partition, b, w.options.threads, blocks, [&](std::size_t k) {
       const Vec3 l = p.position[b.row_hi[k]] - p.position[b.row_lo[k]];
       const double distance = norm(l);
       const BondForce<double> f =
-          force_of_state(law, constants_of_bond(b, k), history_of_bond(b, k), distance, coupled);
+          force_of_state(law_of(k), constants_of_bond(b, k), history_of_bond(b, k), distance, coupled);
       return held_by(b.row_lo[k], b.row_hi[k], (f.normal / distance) * l + f.shear);
     });
   };
-  double held = std::visit(bonds_hold, w.law);
+  double held = with_laws(w.laws, b.law, bonds_hold);
   const ContactTable& t = w.contacts;
   if (w.neighbour_list.awake)
     held += sum_pairs(w.partition, t, w.options.threads, blocks, [&](std::size_t k) {
       const Vec3 l = p.position[t.row_hi[k]] - p.position[t.row_lo[k]];
       const double distance = norm(l), overlap = t.free_length[k] - distance;
       if (overlap <= 0.0) return 0.0;
-      return held_by(t.row_lo[k], t.row_hi[k], (-t.stiffness[k] * overlap / distance) * l + t.shear_force[k]);
+      return held_by(t.row_lo[k], t.row_hi[k],
+                     (-pressed_force(t, k, overlap) / distance) * l + t.shear_force[k]);
     });
   return c.acting * held / pressed;
 }
@@ -105,22 +104,21 @@ void fill_criteria(World& w) {
   BondTable& b = w.bonds;
   for (Column<double>* column : {&b.rankine_state, &b.mohr_coulomb_state, &b.drucker_prager_state})
     column->assign(b.padded, 0.0);
-  std::visit(
-      [&](const auto& law) {
-        for (std::size_t k = 0; k < b.size; ++k) {
-          const Row i = b.row_lo[k], j = b.row_hi[k];
-          const auto principal = principal_stresses({0.5 * (p.stress_normal[i] + p.stress_normal[j]),
-                                                     0.5 * (p.stress_shear[i] + p.stress_shear[j])});
-          const BondConstants<double> bond = constants_of_bond(b, k);
-          const auto limits = limits_of(law, bond);
-          const TensorStrengths strengths{limits.tension / bond.strength_area,
-                                          limits.cohesion / bond.strength_area, law.failure.friction_pressed};
-          b.rankine_state[k] = rankine_state(principal, strengths);
-          b.mohr_coulomb_state[k] = mohr_coulomb_state(principal, strengths);
-          b.drucker_prager_state[k] = drucker_prager_state(principal, strengths);
-        }
-      },
-      w.law);
+  with_laws(w.laws, b.law, [&](const auto& law_of) {
+    for (std::size_t k = 0; k < b.size; ++k) {
+      const Row i = b.row_lo[k], j = b.row_hi[k];
+      const auto principal = principal_stresses(
+          {0.5 * (p.stress_normal[i] + p.stress_normal[j]), 0.5 * (p.stress_shear[i] + p.stress_shear[j])});
+      const BondConstants<double> bond = constants_of_bond(b, k);
+      const auto limits = limits_of(law_of(k), bond);
+      const TensorStrengths strengths{limits.tension / bond.strength_area,
+                                      limits.cohesion / bond.strength_area,
+                                      law_of(k).failure.friction_pressed};
+      b.rankine_state[k] = rankine_state(principal, strengths);
+      b.mohr_coulomb_state[k] = mohr_coulomb_state(principal, strengths);
+      b.drucker_prager_state[k] = drucker_prager_state(principal, strengths);
+    }
+  });
 }
 
 void fill_bond_columns(World& w) {
@@ -131,20 +129,18 @@ void fill_bond_columns(World& w) {
   const bool breaks = !b.damage_normal.empty();
   if (breaks) b.failure_state.assign(b.padded, 0.0);
   const bool coupled = w.features.criterion == Criterion::coupled;
-  std::visit(
-      [&](const auto& law) {
-        for (std::size_t k = 0; k < b.size; ++k) {
-          const double distance = norm(p.position[b.row_hi[k]] - p.position[b.row_lo[k]]);
-          const BondConstants<double> bond = constants_of_bond(b, k);
-          const BondHistory<double> h = history_of_bond(b, k);
-          const BondForce<double> f = force_of_state(law, bond, h, distance, coupled);
-          b.normal_force[k] = f.normal;
-          b.normal_stress[k] = f.normal / bond.area;
-          b.shear_stress[k] = norm(f.shear) / bond.area;
-          if (breaks) b.failure_state[k] = failure_state(law, bond, h, distance, coupled);
-        }
-      },
-      w.law);
+  with_laws(w.laws, b.law, [&](const auto& law_of) {
+    for (std::size_t k = 0; k < b.size; ++k) {
+      const double distance = norm(p.position[b.row_hi[k]] - p.position[b.row_lo[k]]);
+      const BondConstants<double> bond = constants_of_bond(b, k);
+      const BondHistory<double> h = history_of_bond(b, k);
+      const BondForce<double> f = force_of_state(law_of(k), bond, h, distance, coupled);
+      b.normal_force[k] = f.normal;
+      b.normal_stress[k] = f.normal / bond.area;
+      b.shear_stress[k] = norm(f.shear) / bond.area;
+      if (breaks) b.failure_state[k] = failure_state(law_of(k), bond, h, distance, coupled);
+    }
+  });
 }
 
 }  // namespace

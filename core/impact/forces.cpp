@@ -3,8 +3,8 @@
 
 #include "core/base/error.hpp"
 #include "core/impact/impact_world.hpp"
-#include "kernels/laws/linear_contact.hpp"
 #include "kernels/laws/rolling_friction.hpp"
+#include "kernels/laws/surface_contact.hpp"
 #include "kernels/loops/integrate.hpp"
 
 namespace breccia {
@@ -26,8 +26,8 @@ Vec3 law_force(const ImpactWorld& w, const ImpactContactTable& t, std::size_t k,
                                overlap, pair, w.dt, memory);
   memory.shear += t.tangential[k] * pair.slip;
   memory.overlap = overlap;
-  return linear_contact_force({t.normal[k], t.tangential[k] / t.normal[k], t.damping[k], t.friction[k]},
-                              overlap, pair, memory.shear);
+  return surface_force({t.normal[k], t.tangential[k] / t.normal[k], t.damping[k], t.friction[k]}, overlap,
+                       pair, memory.shear);
 }
 
 Vec3 rolling_torque(const ImpactWorld& w, ImpactContactTable& t, std::size_t k, const Ends& ends,

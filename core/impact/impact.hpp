@@ -14,7 +14,6 @@
 
 namespace breccia {
 
-enum class ContactLaw { linear, hertz_mindlin };
 enum class RollingModel { constant, elastic_plastic };
 
 /// Of a particle or a wall. SI.

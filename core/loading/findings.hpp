@@ -30,9 +30,11 @@ struct RunSummary {
   std::string hydrostatic_branch;
   std::optional<double> limits_raised_Pa;
   std::optional<double> stage1_broken, stage1_yielded;  ///< bonds, at the end of that stage
-  std::optional<double> peak_stress_Pa;                 ///< total axial
-  std::optional<double> peak_deviator_Pa;               ///< total axial less confinement
-  bool peak_reached = false;  ///< the stress came down again after its largest value
+  /// of several materials: spheres of each, and broken bonds between two of one
+  std::vector<std::size_t> material_spheres, material_broken;
+  std::optional<double> peak_stress_Pa;    ///< total axial
+  std::optional<double> peak_deviator_Pa;  ///< total axial less confinement
+  bool peak_reached = false;               ///< the stress came down again after its largest value
   std::optional<double> strain_at_peak;
   /// measured, mean over the rows within 5 % of the peak: a servo need not hold what was asked for
   std::optional<double> confining_stress_at_peak_Pa;

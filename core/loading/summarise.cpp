@@ -144,6 +144,20 @@ double held_around_peak(std::span<const CurveRow> rows, std::size_t peak) {
   return sum / static_cast<double>(last - first + 1);
 }
 
+/// Spheres of each material, and what broke within it.
+void read_materials(const World& w, RunSummary& run) {
+  if (w.materials == 1) return;
+  run.material_spheres.assign(w.materials, 0);
+  run.material_broken.assign(w.materials, 0);
+  const ParticleTable& p = w.particles;
+  const BondTable& b = w.bonds;
+  for (std::size_t row = 0; row < p.size; ++row) ++run.material_spheres[p.material[row]];
+  for (std::size_t k = 0; k < b.size; ++k)
+    if (const LawIndex of = p.material[b.row_lo[k]];
+        of == p.material[b.row_hi[k]] && bond_state(b, k) != BondState::intact)
+      ++run.material_broken[of];
+}
+
 /// What stage 1 did to the bonds.
 void read_stage1(const LaboratoryTest& test, const World& w, const LoadTest& load, const LoadResult& result,
                  RunSummary& run) {
@@ -308,6 +322,7 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
   run.warnings = result.warnings;
   warn_of_pressure(run);
   read_stage1(test, w, load, result, run);
+  read_materials(w, run);
   warn_if_not_held(test, load, result, f, run);
   warn_if_not_unloaded(load, result, run);
   if (test.across) read_disc(w, a, result, run);
@@ -334,7 +349,7 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
   warn_of_ends(w, a, load, run);
   warn_if_not_elastic(f, run);
   warn_if_dynamic(f, run);
-  warn_of_modulus(w.material, run);
+  if (w.materials == 1) warn_of_modulus(w.material, run);
   if (run.peak_reached) {
     const ErrorEstimate e =
         estimate_error(f.kinetic_ratio, f.platen_mismatch, run.energy_error, run.particles);

@@ -4,7 +4,9 @@
 #include <numeric>
 
 #include "core/base/error.hpp"
+#include "core/bonding/several_materials.hpp"
 #include "core/tables/row_order.hpp"
+#include "core/world/loop_views.hpp"
 #include "core/world/scatter_plans.hpp"
 #include "core/world/stable_step.hpp"
 
@@ -32,10 +34,7 @@ std::vector<Row> list_contacts(World& w, std::span<const Gid> lo, std::span<cons
     return std::minmax(ends[a].first, ends[a].second) < std::minmax(ends[b].first, ends[b].second);
   });
   ContactTable& c = w.contacts;
-  c = ContactTable{};
-  c.resize(lo.size(), w.features);
-  if (w.ledger.enabled) c.viscous_force.assign(c.padded, 0.0);
-  if (w.material.rolling_friction > 0.0) c.couple.assign(c.padded, {});
+  c = contact_table(lo.size(), contact_columns(w));
   std::vector<Row> rows(lo.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
     rows[order[k]] = static_cast<Row>(k);
@@ -44,6 +43,7 @@ std::vector<Row> list_contacts(World& w, std::span<const Gid> lo, std::span<cons
     c.gid_hi[k] = hi[order[k]];
     c.row_lo[k] = row_lo;
     c.row_hi[k] = row_hi;
+    if (!c.law.empty()) c.law[k] = law_between(p.material[row_lo], p.material[row_hi], w.materials);
     if (!c.arm_offset.empty()) c.arm_offset[k] = contact_arm_offset(p.radius[row_lo], p.radius[row_hi]);
   }
   return rows;

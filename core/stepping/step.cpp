@@ -32,10 +32,10 @@ void search_if_due(World& w) {
   // of several ranks the root lists the contacts and looks at the step, for all of them
   World& whole = gather_to_root(w);
   if (w.partition.ranks.is_root()) {
-    const ContactMaterial material{w.material.young_modulus, w.alpha, w.space,
-                                   w.material.rolling_friction > 0.0};
-    rebuild_neighbour_list(whole.neighbour_list, whole.contacts, whole.particles, material, whole.features,
-                           whole.ledger.enabled, whole.options.threads);
+    const ContactMaterial material{w.contact_young, w.contact_poisson, w.shear_ratio,     w.materials,
+                                   w.alpha,         w.space,           contact_columns(w)};
+    rebuild_neighbour_list(whole.neighbour_list, whole.contacts, whole.particles, material,
+                           whole.options.threads);
     start_contact_sums(whole.ledger, whole.contacts);
     revise_step(whole);
   }
@@ -97,7 +97,7 @@ void pass_over_bonds(World& w, bool reaching) {
 
 RollingScene rolling_scene(const World& w) {
   const ParticleTable& p = w.particles;
-  return {w.dt, w.material.rolling_friction, w.shear_ratio, p.position, p.velocity, p.spin, p.radius};
+  return {w.dt, w.material.rolling_friction, w.shear_ratio.front(), p.position, p.velocity, p.spin, p.radius};
 }
 
 /// Moments of cement, and resistance of broken bonds to rolling.
@@ -111,7 +111,7 @@ void turn_bonds(World& w) {
   const std::size_t owned =
       ForceBuffer::capacity * force_blocks(b.size);  // copies count where they are owned
   const RollingScene scene = rolling_scene(w);
-  const auto* cement = std::get_if<ParallelBondLaw>(&w.law);
+  const bool cement = std::holds_alternative<ParallelBondLaw>(w.laws.front());
   const bool rolls = w.material.rolling_friction > 0.0;
   for_ranges(w.bond_plan.ranges, [&](int range) {
     const auto book = [&](std::size_t k, double taken) {
@@ -119,7 +119,7 @@ void turn_bonds(World& w) {
     };
     couple_pass(pairs.couple, w.bond_plan.first(range), w.bond_plan.first(range + 1), to, [&](std::size_t k) {
       if (cement && bond_state(b, k) == BondState::intact)
-        return bend(w, *cement, k, k < owned ? notes_of(w.cracks, range) : nullptr, k < owned);
+        return bend(w, k, k < owned ? notes_of(w.cracks, range) : nullptr, k < owned);
       if (cement) drop_moment(w, k, k < owned);
       return rolls && roll(scene, pairs, k, book);
     });
@@ -129,7 +129,8 @@ void turn_bonds(World& w) {
 void roll_contacts(World& w) {
   ContactTable& c = w.contacts;
   if (c.couple.empty()) return;
-  const RollingPairs pairs{c.row_lo, c.row_hi, c.free_length, {}, c.stiffness, {}, {}, c.couple};
+  const RollingPairs pairs{c.row_lo, c.row_hi, c.free_length, {}, c.stiffness, {},
+                           {},       c.couple, c.hertz_normal};
   const Scatter to = couple_view(w.contact_plan, c.row_lo, c.row_hi, w.particles);
   const RollingScene scene = rolling_scene(w);
   for_ranges(w.contact_plan.ranges, [&](int range) {
@@ -150,7 +151,7 @@ void bond_forces(World& w) {
   turn_bonds(w);
   const Lap lap(w.phases, Phase::bonds);
   sync_broken(w);
-  record_cracks(w.cracks, w.law, w.features.criterion == Criterion::coupled, w.time, w.dt, w.particles,
+  record_cracks(w.cracks, w.laws, w.features.criterion == Criterion::coupled, w.time, w.dt, w.particles,
                 w.bonds);
 }
 
@@ -160,9 +161,10 @@ void contact_forces(World& w) {
   ParticleTable& p = w.particles;
   ContactTable& c = w.contacts;
   const Scatter to = scatter_view(w.contact_plan, c.row_lo, c.row_hi, c.arm_offset, p);
-  const ContactPassIn in{
-      w.dt,     w.shear_ratio, w.friction, w.features.rotation, p.position,  p.velocity, p.spin,
-      p.radius, c.row_lo,      c.row_hi,   c.arm_offset,        c.stiffness, c.damping};
+  const ContactPassIn in{w.dt,       w.shear_ratio, w.friction,     w.features.rotation,
+                         p.position, p.velocity,    p.spin,         p.radius,
+                         c.row_lo,   c.row_hi,      c.arm_offset,   c.stiffness,
+                         c.damping,  c.law,         c.hertz_normal, c.hertz_tangential};
   const ContactPassHistory history{c.free_length, c.shear_force, c.viscous_force, w.ledger.contacts};
   for_ranges(w.contact_plan.ranges, [&](int range) {
     contact_pass(in, history, w.contact_plan.first(range), w.contact_plan.first(range + 1), to);

@@ -16,6 +16,7 @@ namespace breccia {
   COLUMN(Gid,    gid_hi,          "1",     identity,  always,          "larger global id of the two ends")            \
   COLUMN(Row,    row_lo,          "1",     scratch,   always,          "row of the end gid_lo")                       \
   COLUMN(Row,    row_hi,          "1",     scratch,   always,          "row of the end gid_hi")                       \
+  COLUMN(LawIndex, law,           "1",     reference, several,         "which of the scene's laws, one for each pair of materials") \
   COLUMN(double, arm_offset,      "1",     scratch,   rotation,        "(r_lo - r_hi)/(r_lo + r_hi)/2: of the distance, 1/2 + this is the arm of lo, 1/2 - this of hi") \
   COLUMN(double, rest_length,     "m",     reference, always,          "centre distance when bonded; free of stress") \
   COLUMN(double, area,            "m^2",   reference, always,          "alpha times that of the area rule, minimum: pi min(r_lo, r_hi)^2") \

@@ -40,6 +40,10 @@ std::string_view name_of(Need need) {
       return "energy ledger";
     case Need::rolling:
       return "rolling friction";
+    case Need::several:
+      return "several materials";
+    case Need::hertz:
+      return "Hertz contacts";
     case Need::orientation:
       return "orientation";
     case Need::stress:

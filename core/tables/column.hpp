@@ -29,7 +29,9 @@ enum class Need {
   ledger,
   stress,
   orientation,
-  rolling
+  rolling,
+  several,
+  hertz
 };
 
 struct ColumnInfo {

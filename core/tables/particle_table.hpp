@@ -7,12 +7,14 @@
 #include "core/tables/column.hpp"
 #include "core/tables/particle_records.hpp"
 #include "core/tables/table.hpp"
+#include "kernels/laws/bond_laws.hpp"
 
 namespace breccia {
 
 // clang-format off
 #define BRECCIA_PARTICLE_COLUMNS(COLUMN)                                                                              \
   COLUMN(Gid,    gid,                "1",      identity,  always,   "global id, as in the specimen's file")           \
+  COLUMN(LawIndex, material,         "1",      reference, several,  "0: of [material], n: of the n-th [[material.group]]") \
   COLUMN(double, radius,             "m",      reference, always,   "radius of the sphere")                           \
   COLUMN(double, mass,               "kg",     reference, always,   "density times volume, and more where masses are scaled")  \
   COLUMN(Vec3,   reference_position, "m",      reference, always,   "centre when the bonds were made")                \

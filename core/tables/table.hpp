@@ -23,11 +23,14 @@ constexpr bool is_needed(Need need, const Features& features) {
       return features.plasticity;
     case Need::breakage:
       return features.breakage;
+    case Need::several:
+      return features.several;
     case Need::strength_area:
     case Need::ledger:
     case Need::stress:
     case Need::orientation:
     case Need::rolling:
+    case Need::hertz:
       return false;  // made by the one who fills it
   }
   return true;

@@ -7,8 +7,8 @@ namespace breccia {
 namespace {
 
 MomentStiffness stiffness_of_moments(const World& w, std::size_t k) {
-  return moment_stiffness(w.bonds.stiffness[k], w.shear_ratio * w.bonds.stiffness[k], w.bonds.area[k],
-                          w.space == Space::two_d);
+  return moment_stiffness(w.bonds.stiffness[k], of_law(w.shear_ratio, w.bonds.law, k) * w.bonds.stiffness[k],
+                          w.bonds.area[k], w.space == Space::two_d);
 }
 
 /// What the bond pass of the next step, and the record of cracks, are to find. What the normal
@@ -34,7 +34,7 @@ void tear(World& w, std::size_t k, CementState state, double pull, double stretc
 
 }  // namespace
 
-bool bend(World& w, const ParallelBondLaw& law, std::size_t k, BreakNotes* notes, bool booked) {
+bool bend(World& w, std::size_t k, BreakNotes* notes, bool booked) {
   BondTable& b = w.bonds;
   if (!(b.stiffness[k] > 0.0)) return false;
   const ParticleTable& p = w.particles;
@@ -44,6 +44,7 @@ bool bend(World& w, const ParallelBondLaw& law, std::size_t k, BreakNotes* notes
   const MomentStiffness stiffness = stiffness_of_moments(w, k);
   b.couple[k] = moment_after(b.couple[k], pair, p.spin[lo], p.spin[hi], stiffness, w.dt);
   if (!w.features.breakage) return true;
+  const auto& law = std::get<ParallelBondLaw>(w.laws[b.law.empty() ? 0 : b.law[k]]);
   const Moment moment = moment_of(b.couple[k], pair.normal);
   const double pull = b.stiffness[k] * (pair.distance - b.rest_length[k]);
   const double shear = norm(Vec3{b.shear_x[k], b.shear_y[k], b.shear_z[k]});

@@ -9,7 +9,7 @@ namespace breccia {
 /// @param notes   of fresh breaks, or null
 /// @param booked  whether the ledger is to take what is lost
 /// @returns false where no moment acts
-bool bend(World& world, const ParallelBondLaw& law, std::size_t bond, BreakNotes* notes, bool booked);
+bool bend(World& world, std::size_t bond, BreakNotes* notes, bool booked);
 
 /// Of a bond that its pull or its shear alone have broken.
 void drop_moment(World& world, std::size_t bond, bool booked);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/tables/laws.hpp"
 #include "core/world/energies.hpp"
 #include "kernels/loops/bond_energy.hpp"
 
@@ -50,7 +51,7 @@ Crack crack_of(const Law& law, bool coupled, const BreakEvent& was, double dt, c
 
 }  // namespace
 
-void record_cracks(CrackRecord& record, const BondLaw& law, bool coupled, double time, double dt,
+void record_cracks(CrackRecord& record, std::span<const BondLaw> laws, bool coupled, double time, double dt,
                    const ParticleTable& p, const BondTable& b) {
   for (BreakNotes& notes : record.notes) {
     if (notes.count == 0) continue;
@@ -59,8 +60,9 @@ void record_cracks(CrackRecord& record, const BondLaw& law, bool coupled, double
     // of several ranks the bonds that need nothing from elsewhere come first
     std::ranges::sort(notes.room.first(noted), {}, &BreakEvent::bond);
     for (const BreakEvent& was : notes.room.first(noted)) {
-      record.cracks.push_back(
-          std::visit([&](const auto& l) { return crack_of(l, coupled, was, dt, p, b); }, law));
+      record.cracks.push_back(with_laws(laws, b.law, [&](const auto& law_of) {
+        return crack_of(law_of(was.bond), coupled, was, dt, p, b);
+      }));
       record.cracks.back().time = time;
     }
     notes.count = 0;

@@ -38,7 +38,7 @@ CrackRecord make_crack_record(bool enabled, int ranges, std::size_t bonds);
 BreakNotes* notes_of(CrackRecord& record, int range);
 
 /// After the pass: turns the notes into rows.
-void record_cracks(CrackRecord& record, const BondLaw& law, bool coupled, double time, double dt,
+void record_cracks(CrackRecord& record, std::span<const BondLaw> laws, bool coupled, double time, double dt,
                    const ParticleTable& particles, const BondTable& bonds);
 
 }  // namespace breccia

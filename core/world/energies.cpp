@@ -75,8 +75,8 @@ namespace {
 template <class Table>
 double rolling_energy(const World& w, const Table& t) {
   // every rank takes part in the sum, one without rows too
-  const bool cement = std::holds_alternative<ParallelBondLaw>(w.law);
-  if (!cement && (!(w.material.rolling_friction > 0.0) || !(w.shear_ratio > 0.0))) return 0.0;
+  const bool cement = std::holds_alternative<ParallelBondLaw>(w.laws.front());
+  if (!cement && (!(w.material.rolling_friction > 0.0) || !(w.shear_ratio.front() > 0.0))) return 0.0;
   std::vector<double> blocks;
   return sum_pairs(w.partition, t, w.options.threads, blocks, [&](std::size_t k) {
     if (t.couple.empty()) return 0.0;
@@ -85,7 +85,8 @@ double rolling_energy(const World& w, const Table& t) {
     if constexpr (std::is_same_v<Table, BondTable>)
       if (cement && bond_state(t, k) == BondState::intact) return moment_energy(w, k);
     const auto& r = w.particles.radius;
-    return 0.5 * size2 / rolling_stiffness(w.shear_ratio * t.stiffness[k], r[t.row_lo[k]], r[t.row_hi[k]]);
+    return 0.5 * size2 /
+           rolling_stiffness(w.shear_ratio.front() * t.stiffness[k], r[t.row_lo[k]], r[t.row_hi[k]]);
   });
 }
 
@@ -101,31 +102,30 @@ double stored_energy(const World& w, double back) {
   const bool coupled = w.features.criterion == Criterion::coupled;
   const BondEnergyIn in = bond_energy_in(w, back);
   const double sum =
-      rolling_energy(w, w.bonds) +
-      std::visit(
-          [&](const auto& law) {
-            return sum_pair_ranges(
-                w.partition, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
-                  const bool each = unloads_elsewhere(law);  // the quick way knows k_n alone
-                  double energy = each ? 0.0 : w.undamaged_energy(in, first, last);
-                  if (b.damage_normal.empty() && !each) return energy;
-                  for (std::size_t k = first; k < last; ++k)
-                    if (each || b.damage_normal[k] > 0.0 || b.damage_shear[k] > 0.0)
-                      energy += stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k),
-                                              distance_of(b.row_lo[k], b.row_hi[k]), coupled);
-                  return energy;
-                });
-          },
-          w.law);
+      rolling_energy(w, w.bonds) + with_laws(w.laws, b.law, [&](const auto& law_of) {
+        return sum_pair_ranges(
+            w.partition, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
+              // the quick way knows k_n and one k_s/k_n alone
+              const bool each = w.laws.size() > 1 || unloads_elsewhere(law_of(0));
+              double energy = each ? 0.0 : w.undamaged_energy(in, first, last);
+              if (b.damage_normal.empty() && !each) return energy;
+              for (std::size_t k = first; k < last; ++k)
+                if (each || b.damage_normal[k] > 0.0 || b.damage_shear[k] > 0.0)
+                  energy += stored_energy(law_of(k), constants_of_bond(b, k), history_of_bond(b, k),
+                                          distance_of(b.row_lo[k], b.row_hi[k]), coupled);
+              return energy;
+            });
+      });
   const ContactTable& c = w.contacts;
   if (!w.neighbour_list.awake) return sum;
   return sum + rolling_energy(w, c) +
          sum_pairs(w.partition, c, w.options.threads, blocks, [&](std::size_t k) {
            const double overlap = c.free_length[k] - distance_of(c.row_lo[k], c.row_hi[k]);
            if (overlap <= 0.0) return 0.0;
-           double energy = 0.5 * c.stiffness[k] * overlap * overlap;
-           if (w.shear_ratio > 0.0)
-             energy += 0.5 * dot(c.shear_force[k], c.shear_force[k]) / (w.shear_ratio * c.stiffness[k]);
+           const SurfaceSpring spring =
+               surface_spring(constants_of_contact(c, k, of_law(w.shear_ratio, c.law, k)), overlap);
+           double energy = spring.stored;
+           if (spring.across > 0.0) energy += 0.5 * dot(c.shear_force[k], c.shear_force[k]) / spring.across;
            return energy;
          });
 }

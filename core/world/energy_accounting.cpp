@@ -84,18 +84,17 @@ double normal_damage(const World& w) {
   if (!w.features.breakage || w.features.criterion == Criterion::coupled) return 0.0;
   std::vector<double> blocks;
   const BondTable& b = w.bonds;
-  return std::visit(
-      [&]<class Law>(const Law& law) {
-        return sum_pairs(w.partition, b, w.options.threads, blocks, [&](std::size_t k) {
-          if (passes_moments<Law>) return 0.0;
-          const double damage = b.damage_normal[k];
-          if (!(damage > 0.0)) return 0.0;
-          const BondConstants<double> bond = constants_of_bond(b, k);
-          return damage_energy(damage, limits_of(law, bond).tension, bond.stiffness,
-                               delta_normal(law.failure, strain_length(law.young, bond)));
-        });
-      },
-      w.law);
+  return with_laws(w.laws, b.law, [&](const auto& law_of) {
+    return sum_pairs(w.partition, b, w.options.threads, blocks, [&](std::size_t k) {
+      const auto& law = law_of(k);
+      if (passes_moments<std::decay_t<decltype(law)>>) return 0.0;
+      const double damage = b.damage_normal[k];
+      if (!(damage > 0.0)) return 0.0;
+      const BondConstants<double> bond = constants_of_bond(b, k);
+      return damage_energy(damage, limits_of(law, bond).tension, bond.stiffness,
+                           delta_normal(law.failure, strain_length(law.young, bond)));
+    });
+  });
 }
 
 /// Of forces from outside on listed rows.

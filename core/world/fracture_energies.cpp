@@ -5,10 +5,11 @@
 namespace breccia {
 namespace {
 
-template <class Law>
-FractureEnergies energies_under(const World& w, const Law& law) {
+template <class LawOf>
+FractureEnergies energies_under(const World& w, const LawOf& law_of) {
   double normal = 0, shear = 0, area = 0;
   for (std::size_t k = 0; k < w.bonds.size; ++k) {
+    const auto& law = law_of(k);
     const BondConstants<double> bond = constants_of_bond(w.bonds, k);
     const auto limits = limits_of(law, bond);
     const double length = strain_length(law.young, bond);
@@ -25,7 +26,7 @@ FractureEnergies energies_under(const World& w, const Law& law) {
 }  // namespace
 
 FractureEnergies fracture_energies(const World& w) {
-  return std::visit([&](const auto& law) { return energies_under(w, law); }, w.law);
+  return with_laws(w.laws, w.bonds.law, [&](const auto& law_of) { return energies_under(w, law_of); });
 }
 
 }  // namespace breccia

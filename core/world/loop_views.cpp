@@ -7,16 +7,9 @@ namespace breccia {
 BondPassIn bond_pass_in(const World& w) {
   const ParticleTable& p = w.particles;
   const BondTable& b = w.bonds;
-  return {w.dt,
-          constants_of(w.law),
-          p.position,
-          p.velocity,
-          p.spin,
-          b.row_lo,
-          b.row_hi,
-          b.rest_length,
-          constant_columns(b),
-          w.single_bonds.constants()};
+  return {w.dt,     w.laws,   p.position,    p.velocity,          p.spin,
+          b.row_lo, b.row_hi, b.rest_length, constant_columns(b), w.single_bonds.constants(),
+          b.law};
 }
 
 BondEnergyIn bond_energy_in(const World& w, double back) {
@@ -35,7 +28,7 @@ BondEnergyIn bond_energy_in(const World& w, double back) {
           .damage_normal = b.damage_normal,
           .damage_shear = b.damage_shear,
           .back = back,
-          .shear_ratio = w.shear_ratio};
+          .shear_ratio = w.shear_ratio.front()};
 }
 
 Motion motion_of(World& w) {
@@ -54,6 +47,11 @@ BondPassHistory bond_pass_history(World& w) {
 
 double inertia_factor(const World& w) {
   return w.space == Space::two_d ? disc_inertia_factor : sphere_inertia_factor;
+}
+
+ContactColumns contact_columns(const World& w) {
+  return {w.features, w.ledger.enabled, w.material.rolling_friction > 0.0,
+          w.material.contact_law == ContactLaw::hertz_mindlin};
 }
 
 }  // namespace breccia

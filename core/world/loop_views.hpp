@@ -17,4 +17,7 @@ Motion motion_of(World& world);
 /// I = factor m r^2
 double inertia_factor(const World& world);
 
+/// What contacts of the scene have in their table.
+ContactColumns contact_columns(const World& w);
+
 }  // namespace breccia

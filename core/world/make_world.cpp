@@ -1,5 +1,6 @@
 #include "core/world/make_world.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,11 +15,13 @@ namespace {
 
 using std::numbers::pi;
 
-void set_masses(ParticleTable& p, double density, Space space) {
+void set_masses(ParticleTable& p, std::span<const BondMaterial> materials, Space space) {
   for (std::size_t row = 0; row < p.size; ++row) {
     const double r = p.radius[row];
+    const std::size_t of = p.material.empty() ? 0 : p.material[row];
     // (B1)
-    p.mass[row] = density * (space == Space::two_d ? pi * r * r : 4.0 / 3.0 * pi * r * r * r);
+    p.mass[row] =
+        materials[of].material.density * (space == Space::two_d ? pi * r * r : 4.0 / 3.0 * pi * r * r * r);
   }
 }
 
@@ -28,7 +31,7 @@ void set_bond_constants(World& w) {
   // a strength area of its own partitions space as it is; otherwise strength and stiffness share
   // alpha A
   for (double& area : b.area) area *= w.alpha;  // (P21) (B11)
-  const std::vector<double> stiffness = bond_stiffness(w.law, p, b);
+  const std::vector<double> stiffness = bond_stiffness(w.laws, p, b);
   for (std::size_t k = 0; k < b.padded; ++k) {
     const Row lo = b.row_lo[k], hi = b.row_hi[k];
     b.stiffness[k] = k < b.size ? stiffness[k] : 0.0;  // none for padding
@@ -51,10 +54,37 @@ BondLaw law_of_scene(const Material& material, double shear_ratio, const Feature
   return law;
 }
 
+/// The law of each pair of materials.
+void set_laws(World& w, std::span<const BondMaterial> materials) {
+  w.materials = materials.size();
+  for_each_pair(materials.size(), [&](std::size_t one, std::size_t other) {
+    const BondMaterial m = one == other ? materials[one] : between(materials[one], materials[other]);
+    w.laws.push_back(law_of_scene(m.material, m.shear_ratio, w.options.features));
+    w.contact_young.push_back(m.material.young_modulus);
+    w.contact_poisson.push_back(m.material.poisson_ratio);
+  });
+  for (const BondLaw& law : w.laws) {
+    w.shear_ratio.push_back(shear_ratio_of(law));
+    w.friction.push_back(friction_of(law));
+  }
+  w.young = std::visit([](const auto& law) { return law.young; }, w.laws.front());
+}
+
+/// What the scene asks of the loop, given its laws.
+Features asked_of_loop(const World& w) {
+  Features asked = w.options.features;
+  const auto elsewhere = [](const BondLaw& law) {
+    return std::visit([](const auto& l) { return unloads_elsewhere(l); }, law);
+  };
+  asked.several = w.materials > 1;
+  asked.unloading = asked.plasticity && std::any_of(w.laws.begin(), w.laws.end(), elsewhere);
+  return asked;
+}
+
 }  // namespace
 
 World make_world(const Assembly& assembly, const Material& material, const AreaFactor& factor,
-                 const WorldOptions& options) {
+                 const WorldOptions& options, std::span<const BondMaterial> others) {
   World w;
   w.options = options;
   w.body = assembly.body;
@@ -62,24 +92,16 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.alpha = factor.alpha;
   w.space = assembly.space;
   w.volume = assembly.volume();
-  w.law = law_of_scene(material, factor.shear_ratio, options.features);
+  std::vector<BondMaterial> materials{{material, factor.shear_ratio}};
+  materials.insert(materials.end(), others.begin(), others.end());
+  set_laws(w, materials);
   const LoopKind kind{options.precision, options.ledger};
-  Features asked = options.features;
-  asked.unloading =
-      asked.plasticity && std::visit([](const auto& law) { return unloads_elsewhere(law); }, w.law);
-  w.features = built_features(w.law, asked, kind);
-  std::visit(
-      [&](const auto& law) {
-        w.young = law.young;
-        w.shear_ratio = law.shear_ratio;
-        w.friction = law.failure.friction_dynamic;
-      },
-      w.law);
+  w.features = built_features(w.laws.front(), asked_of_loop(w), kind);
   w.particles = assembly.particles;
   w.bonds = assembly.bonds;
   w.first_top = assembly.first_top;
   w.partition = serial_partition(w.particles.size);
-  set_masses(w.particles, material.density, w.space);
+  set_masses(w.particles, materials, w.space);
   set_bond_constants(w);
   choose_step(w);
   if (options.precision == Precision::mixed) w.single_bonds = single_bonds(w.bonds);
@@ -92,13 +114,13 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.neighbour_list.every = options.search_every;
   w.cracks = make_crack_record(options.cracks && w.features.breakage, options.threads, w.bonds.size);
   plan_bonds(w);
-  w.bond_pass = bond_pass_for(w.law, w.features, options.instruction_set, kind);
+  w.bond_pass = bond_pass_for(w.laws.front(), w.features, options.instruction_set, kind);
   w.integrate_free = integrate_free_for(options.instruction_set);
   w.work_of_free = work_of_free_for(options.instruction_set);
   w.undamaged_energy = undamaged_energy_for(options.instruction_set);
   w.confinement.current = options.current_surface;
   w.confinement.impedance = std::sqrt(material.young_modulus * material.density);
-  const bool cement = std::holds_alternative<ParallelBondLaw>(w.law) && w.features.rotation;
+  const bool cement = std::holds_alternative<ParallelBondLaw>(w.laws.front()) && w.features.rotation;
   if (material.rolling_friction > 0.0 || cement) w.bonds.couple.assign(w.bonds.padded, {});
   if (options.orientation) w.particles.orientation.assign(w.particles.padded, {});
   if (options.ledger) {

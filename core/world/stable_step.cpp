@@ -22,7 +22,7 @@ StepScene step_scene(const World& w) {
           .global_damping = global.viscous ? 0.0 : std::max(global.translation, global.rotation),
           .reach = w.neighbour_list.skin,
           .freedom = {w.options.features.rotation, w.space == Space::two_d, inertia_factor(w),
-                      std::holds_alternative<ParallelBondLaw>(w.law)},
+                      std::holds_alternative<ParallelBondLaw>(w.laws.front())},
           .threads = w.options.threads};
 }
 
@@ -94,8 +94,12 @@ void choose_step(World& w) {
   if (!(std::isfinite(w.critical_dt) && w.critical_dt > 0.0)) refuse_step(w);
   // (B116): a spring against rolling adds a quarter at most to what shear gives a particle
   if (w.material.rolling_friction > 0.0) w.critical_dt /= std::sqrt(1.25);
-  if (w.features.plasticity)  // (B118): a bond that has yielded may be stiffer
-    w.critical_dt /= std::sqrt(std::visit([](const auto& law) { return stiffest(law); }, w.law));
+  if (w.features.plasticity) {  // (B118): a bond that has yielded may be stiffer
+    double most = 1.0;
+    for (const BondLaw& law : w.laws)
+      most = std::max(most, std::visit([](const auto& l) { return stiffest(l); }, law));
+    w.critical_dt /= std::sqrt(most);
+  }
   if (o.global_damping.viscous) {
     // (B113): (w dt/2)^2 = 1 - c dt/2 instead of 1
     const double a = 0.25 * w.critical_dt * w.critical_dt * o.global_damping.translation;

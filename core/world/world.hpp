@@ -15,6 +15,7 @@
 #include "core/elastic/step_monitor.hpp"
 #include "core/ranks/partition.hpp"
 #include "core/ranks/scatter_plan.hpp"
+#include "core/tables/laws.hpp"
 #include "core/tables/mixed_precision.hpp"
 #include "core/world/crack_record.hpp"
 #include "core/world/energy_ledger.hpp"
@@ -31,15 +32,18 @@ struct World {
   Body body;
   Material material;
   Space space = Space::three_d;
-  BondLaw law;
-  Features features;  ///< that run: those asked for, or the nearest superset that is built
-  double volume = 0;  ///< m^3, nominal
+  std::vector<BondLaw> laws;  ///< one, or of several materials one for each pair of them
+  Features features;          ///< that run: those asked for, or the nearest superset that is built
+  double volume = 0;          ///< m^3, nominal
   double alpha = 1;
-  double young = 0, shear_ratio = 0;  ///< Pa and k_s/k_n of the bonds
-  double friction = 0;                ///< of broken bonds and contacts
-  double critical_dt = 0;             ///< s, of the bonds; lowered when contacts ask for it
-  double dt = 0;                      ///< s
-  double time = 0;                    ///< s
+  std::size_t materials = 1;
+  double young = 0;                                    ///< Pa, of the bonds; of several materials the first
+  std::vector<double> shear_ratio;                     ///< k_s/k_n, by law
+  std::vector<double> contact_young, contact_poisson;  ///< Pa, 1, of contacts, by law
+  std::vector<double> friction;                        ///< of broken bonds and contacts, by law
+  double critical_dt = 0;                              ///< s, of the bonds; lowered when contacts ask for it
+  double dt = 0;                                       ///< s
+  double time = 0;                                     ///< s
   std::uint64_t step = 0;
   ParticleTable particles;
   BondTable bonds;

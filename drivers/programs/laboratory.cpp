@@ -302,8 +302,8 @@ void run_series(const LaboratoryTest& test, const CommandLine& line) {
   const ReadySpecimen ready = make_ready(c, test, asked, line.threads, progress);
   const WorldOptions options = world_options(c, test, asked, line.threads);
   if (line.explain || line.dry_run) {
-    const World w =
-        make_world(ready.assembly, material_of_run(c, test, 0, ready.factor), ready.factor, options);
+    const World w = make_world(ready.assembly, material_of_run(c, test, 0, ready.factor), ready.factor,
+                               options, materials_of_groups(c, test, 0, ready.factor, ready.group_factors));
     say(progress, step_line(w, c.safety));
     if (const std::string elastic = describe_elasticity(c, test, ready, line.threads); !elastic.empty())
       say(progress, elastic);
@@ -332,7 +332,8 @@ void run_series(const LaboratoryTest& test, const CommandLine& line) {
   Stopped stopped = Stopped::strain;
   for (std::size_t k = series.runs.size(); k < c.test.confinement.size() && stopped != Stopped::interrupted;
        ++k) {
-    World w = make_world(ready.assembly, material_of_run(c, test, k, ready.factor), ready.factor, options);
+    World w = make_world(ready.assembly, material_of_run(c, test, k, ready.factor), ready.factor, options,
+                         materials_of_groups(c, test, k, ready.factor, ready.group_factors));
     if (k == 0) say(progress, step_line(w, c.safety));
     LoadState state;
     LoadResult result;

@@ -1,10 +1,12 @@
 #include "drivers/programs/prepare_specimen.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "core/base/error.hpp"
 #include "core/base/hold.hpp"
@@ -13,8 +15,10 @@
 #include "core/bonding/section_area.hpp"
 #include "core/elastic/elastic_network.hpp"
 #include "core/packing/drill.hpp"
+#include "core/tables/laws.hpp"
 #include "drivers/programs/check_body.hpp"
 #include "drivers/programs/check_bonded.hpp"
+#include "drivers/programs/scene_of_case.hpp"
 #include "io/cases/keys_material.hpp"
 #include "io/specimens/read_specimen.hpp"
 #include "kernels/loops/bond_pass.hpp"
@@ -70,6 +74,7 @@ Features asked_features(const Case& c) {
   f.breakage = c.features.breakage;
   f.contact_damping = c.damping.contact > 0.0;
   f.criterion = c.materials.front().criterion;
+  f.several = !c.groups.empty();
   return f;
 }
 
@@ -108,11 +113,41 @@ AreaFactor area_factor(const Case& c, const Assembly& assembly, AlphaRule rule, 
       assembly, {rule, c.bonds.alpha, c.bonds.elasticity, c.materials.front(), rough, contacts}, threads);
   const BondLaw law = law_of(c.materials.front(), f.shear_ratio);
   say(progress, fmt::format("alpha {:.4f} (areas tile space {:.3f} times), k_s/k_n {:.4f}{}", f.alpha,
-                            f.fabric, std::visit([](const auto& l) { return l.shear_ratio; }, law),
+                            f.fabric, shear_ratio_of(law),
                             f.probes ? fmt::format("; elastic probe: E {:.4g} GPa, nu {:.4f}",
                                                    f.young_modulus * 1e-9, f.poisson_ratio)
                                      : ""));
   return f;
+}
+
+/// Each [[material.group]] has spheres.
+void check_groups(const Case& c, const Specimen& specimen) {
+  std::set<int> present;
+  for (const SpecimenSphere& s : specimen.spheres) present.insert(s.group);
+  for (const GroupCase& group : c.groups)
+    if (!present.contains(group.group))
+      fail<BadInput>("{}: material.group: {} has no sphere of group {}; it has {}", group.place,
+                     specimen.source, group.group, fmt::join(present, ", "));
+}
+
+/// The factors that each group's material would have if the specimen were made of it.
+std::vector<AreaFactor> factors_of_groups(const Case& c, const Assembly& a, AlphaRule rule, bool rough,
+                                          bool contacts, int threads) {
+  std::vector<AreaFactor> factors;
+  for (const GroupCase& group : c.groups)
+    factors.push_back(find_area_factor(
+        a, {rule, c.bonds.alpha, c.bonds.elasticity, group.materials.front(), rough, contacts}, threads));
+  return factors;
+}
+
+std::string describe_materials(const Assembly& a, std::size_t materials) {
+  std::vector<std::size_t> spheres(materials, 0);
+  for (std::size_t row = 0; row < a.particles.size; ++row) ++spheres[a.particles.material[row]];
+  std::size_t across = 0;
+  for (std::size_t k = 0; k < a.bonds.size; ++k)
+    across += a.particles.material[a.bonds.row_lo[k]] != a.particles.material[a.bonds.row_hi[k]];
+  return fmt::format("{} materials, of {} spheres; {} bonds between two of them", materials,
+                     fmt::join(spheres, ", "), across);
 }
 
 Strips strips_of(const Case& c) {
@@ -122,9 +157,11 @@ Strips strips_of(const Case& c) {
   return strips;
 }
 
-/// In tension surfaces part.
+/// Whether surfaces without a bond press from the start. In tension they part, and Hertz's spring
+/// begins with nothing.
 bool has_contacts(const Case& c, const LaboratoryTest& test) {
-  return c.features.new_contacts && test.loading != Loading::tension;
+  return c.features.new_contacts && test.loading != Loading::tension &&
+         c.materials.front().contact_law == ContactLaw::linear;
 }
 
 /// Whether a fluid, a wall or the halves of a shear box act on the lateral surface.
@@ -154,13 +191,21 @@ std::string describe_elasticity(const Case& c, const LaboratoryTest& test, const
   Touching touching;
   if (has_contacts(c, test)) touching = touching_of(a, m, ready.factor.shear_ratio, threads);
   for (double& stiffness : touching.contacts.stiffness) stiffness *= ready.factor.alpha;
-  const BondLaw law = law_of(m, ready.factor.shear_ratio);
-  const double ratio = std::visit([](const auto& l) { return l.shear_ratio; }, law);
+  std::vector<BondMaterial> materials{{m, ready.factor.shear_ratio}};
+  for (const BondMaterial& other : materials_of_groups(c, test, 0, ready.factor, ready.group_factors))
+    materials.push_back(other);
+  std::vector<BondLaw> laws;
+  std::vector<double> ratio;
+  for_each_pair(materials.size(), [&](std::size_t one, std::size_t other) {
+    const BondMaterial of = one == other ? materials[one] : between(materials[one], materials[other]);
+    laws.push_back(law_of(of.material, of.shear_ratio));
+    ratio.push_back(shear_ratio_of(laws.back()));
+  });
   const ElasticResponse e =
-      probe(a, bond_stiffness(law, a.particles, a.bonds), ratio, c.test.rough_platens, threads, touching);
+      probe(a, bond_stiffness(laws, a.particles, a.bonds), ratio, c.test.rough_platens, threads, touching);
   return fmt::format(
       "specimen: E {:.7g} GPa, nu {:.6f} with k_s/k_n {:.4f}; their areas cover a section {:.4f} times",
-      e.young_modulus * 1e-9, e.poisson_ratio, ratio, covered);
+      e.young_modulus * 1e-9, e.poisson_ratio, ratio.front(), covered);
 }
 
 ReadySpecimen make_ready(const Case& c, const LaboratoryTest& test, const Features& asked, int threads,
@@ -168,8 +213,11 @@ ReadySpecimen make_ready(const Case& c, const LaboratoryTest& test, const Featur
   const Features features = features_that_run(c, asked);
   BondingRule rule{c.bonds.range,    c.bonds.coordination, c.bonds.area, c.bonds.strength_area,
                    c.specimen.space, Support::ends,        strips_of(c)};
+  for (const GroupCase& group : c.groups) rule.materials.push_back(group.group);
+  rule.across = c.bonds.between_groups;
   ReadySpecimen ready;
   const Specimen specimen = make_specimen(c, threads, progress, ready.warnings);
+  check_groups(c, specimen);
   Body body = c.specimen.body;
   if (c.specimen.space == Space::two_d) {  // one metre thick
     if (body.shape == Shape::box)
@@ -187,10 +235,12 @@ ReadySpecimen make_ready(const Case& c, const LaboratoryTest& test, const Featur
   const auto look_at = [&](Assembly& a) {
     ready.connection = leave_out_loose(a, contacts, threads);
     say(progress, describe(a, ready.connection));
+    if (!c.groups.empty()) say(progress, describe_materials(a, c.groups.size() + 1));
     check_connection(ready.connection, a, specimen.source, ready.warnings);
   };
   const auto find_factor = [&](const Assembly& a, AlphaRule alpha, bool rough) {
     ready.factor = area_factor(c, a, alpha, rough, contacts, threads, progress);
+    ready.group_factors = factors_of_groups(c, a, alpha, rough, contacts, threads);
     check_area_factor(ready.factor, a, ready.connection, ready.warnings);
   };
   if (!test.across) {

@@ -21,6 +21,7 @@ Features asked_features(const Case& c);
 struct ReadySpecimen {
   Assembly assembly;
   AreaFactor factor;
+  std::vector<AreaFactor> group_factors;  ///< as if the whole specimen were of one group's material
   Connection connection;
   std::vector<std::string> warnings;  ///< of each run of it
 };

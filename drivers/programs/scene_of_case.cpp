@@ -28,6 +28,21 @@ Material material_of_run(const Case& c, const LaboratoryTest& test, std::size_t 
   return with_bond_limits(c.materials[run], branch_of(c, test, run), factor.alpha, factor.fabric);
 }
 
+std::vector<BondMaterial> materials_of_groups(const Case& c, const LaboratoryTest& test, std::size_t run,
+                                              const AreaFactor& factor,
+                                              std::span<const AreaFactor> group_factors) {
+  std::vector<BondMaterial> materials;
+  for (std::size_t k = 0; k < c.groups.size(); ++k) {
+    BondMaterial m{
+        with_bond_limits(c.groups[k].materials[run], branch_of(c, test, run), factor.alpha, factor.fabric),
+        group_factors[k].shear_ratio};
+    // all bonds share one factor on their areas: what another would do to the stiffness, E does
+    m.material.young_modulus *= group_factors[k].alpha / factor.alpha;  // (B125)
+    materials.push_back(std::move(m));
+  }
+  return materials;
+}
+
 LoadTest load_test(const Case& c, const LaboratoryTest& test, std::size_t run, const AreaFactor& factor) {
   LoadTest load;
   load.loading = test.loading;

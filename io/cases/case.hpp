@@ -32,6 +32,14 @@ struct BondsCase {
   Elasticity elasticity = Elasticity::paper;
   AreaRule area = AreaRule::minimum;
   std::optional<AreaRule> strength_area;  ///< nothing: alpha times the area
+  bool between_groups = false;
+};
+
+/// Spheres of a cohesive group that have a material of their own.
+struct GroupCase {
+  int group = 0;
+  std::vector<Material> materials;  ///< one per confinement, in the order of test.confinement
+  std::string place;                ///< "file:line"
 };
 
 struct DampingCase {
@@ -84,6 +92,7 @@ struct Case {
   std::string preset;                        ///< name of the material preset; empty: none
   std::vector<Material> materials;           ///< one per confinement, in the order of test.confinement
   std::vector<MaterialNote> material_notes;  ///< one per confinement
+  std::vector<GroupCase> groups;
   BondsCase bonds;
   DampingCase damping;
   FeatureCase features;

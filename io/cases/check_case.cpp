@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/bonding/several_materials.hpp"
 #include "io/cases/keys_material.hpp"
 #include "io/cases/keys_write.hpp"
 #include "io/text/suggest.hpp"
@@ -336,5 +337,21 @@ void check_confinements(const CaseLaid& laid, const std::vector<ConfinementLayer
 }
 
 void check_law(const CaseLaid& laid, const Given& law) { Checks{laid}.law(law.reading.word, law.place); }
+
+void check_groups(const CaseLaid& laid) {
+  const Case& c = laid.c;
+  for (const GroupCase& group : c.groups) {
+    if (c.precision == Precision::mixed)
+      refuse(group.place, "material.group", "is not built for run.precision = \"mixed\"; leave one out");
+    std::vector<const Material*> before{&c.materials.front()};
+    for (const GroupCase& other : c.groups) before.push_back(&other.materials.front());
+    for (const Material* other : before)
+      if (const std::string_view key = unmatched(*other, group.materials.front()); !key.empty())
+        refuse(group.place, "material.group",
+               fmt::format("{} stands at one of two materials, and something else in its place at the other: "
+                           "bonds between them have no mean of the two; give the same one at both",
+                           key));
+  }
+}
 
 }  // namespace breccia

@@ -32,4 +32,7 @@ void check_confinements(const CaseLaid& laid, const std::vector<ConfinementLayer
 /// @param law  of the material, as given
 void check_law(const CaseLaid& laid, const Given& law);
 
+/// Materials of groups: what their means need, and what takes no groups.
+void check_groups(const CaseLaid& laid);
+
 }  // namespace breccia

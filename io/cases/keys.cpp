@@ -319,6 +319,15 @@ constexpr std::array keys{
         .words = "uncoupled coupled mohr-coulomb",
         .meaning = "how tension and shear share a bond's strength",
         .store_material = [](M& m, const R& r) { m.criterion = criterion_of(r.word); }},
+    Key{.name = "material.contact_law",
+        .kind = Kind::word,
+        .default_text = "linear",
+        .words = "linear hertz-mindlin",
+        .meaning = "of surfaces that were never bonded",
+        .store_material =
+            [](M& m, const R& r) {
+              m.contact_law = r.word == "linear" ? ContactLaw::linear : ContactLaw::hertz_mindlin;
+            }},
     Key{.name = "material.limits",
         .kind = Kind::word,
         .default_text = "bond",
@@ -379,6 +388,12 @@ constexpr std::array keys{
               c.bonds.strength_area.reset();
               if (r.word != "same") c.bonds.strength_area = area_of(r.word);
             }},
+
+    Key{.name = "bonds.between_groups",
+        .kind = Kind::boolean,
+        .default_text = "false",
+        .meaning = "spheres of different groups are bonded too; true where a [[material.group]] is given",
+        .store = [](C& c, const R& r) { c.bonds.between_groups = r.flag; }},
 
     // --- damping
     Key{.name = "damping.contact",

@@ -4,15 +4,19 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/bonding/several_materials.hpp"
 #include "io/text/suggest.hpp"
 #include "io/text/text_file.hpp"
 
 namespace breccia {
 namespace {
 
-constexpr std::string_view material = "material.", at_tables = "material.at", pack = "specimen.pack.";
+constexpr std::string_view material = "material.", at_tables = "material.at", group_tables = "material.group",
+                           pack = "specimen.pack.";
 constexpr Key at_confinement{
     .name = "material.at.confinement", .dimension = dimension::stress, .range = {.low = 0}};
+constexpr Key group_number{
+    .name = "material.group.group", .kind = Kind::whole_number, .range = {.low = 1, .high = 1e9}};
 
 std::string last_part(std::string_view name) { return std::string(name.substr(name.rfind('.') + 1)); }
 
@@ -40,6 +44,7 @@ struct Walker {
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
     if (prefix == material) names.push_back(preset ? "at" : std::string(at_tables));
+    if (prefix == material && !preset) names.push_back(std::string(group_tables));
     if (preset) names.push_back("source");
     return names;
   }
@@ -82,6 +87,8 @@ struct Walker {
       const Key* key = find_key(name);
       if (name == at_tables) {
         read_at(node);
+      } else if (name == group_tables && !preset) {
+        read_groups(node);
       } else if (preset && word == "source" && prefix == material) {
         if (!std::holds_alternative<std::string>(node.value)) refuse(node.place, word, "a string is wanted");
       } else if (key && !(preset && word == "preset")) {
@@ -123,6 +130,46 @@ struct Walker {
       walk(others, std::string(material), group.layer);
       check_rivals(group.layer);
       result.push_back(std::move(group));
+    }
+  }
+
+  void read_groups(const TomlNode& node) {
+    const std::string name(group_tables);
+    constexpr std::string_view of_all[] = {"at",
+                                           "law",
+                                           "criterion",
+                                           "limits",
+                                           "group",
+                                           "rolling_friction",
+                                           "contact_law",
+                                           "shear_residual",
+                                           "shear_under_yield"};
+    const auto* array = std::get_if<TomlArray>(&node.value);
+    if (!array) refuse(node.place, name, fmt::format("write [[{}]], once for each group", name));
+    for (const TomlNode& entry : *array) {
+      const auto* table = std::get_if<TomlTable>(&entry.value);
+      if (!table) refuse(entry.place, name, fmt::format("write [[{}]], once for each group", name));
+      GroupLayer group{0, {}, entry.place};
+      TomlTable others;
+      for (const auto& [word, child] : *table) {
+        if (word == "group")
+          group.group = static_cast<int>(read_value(group_number, child).whole), group.place = child.place;
+        else if (std::find(std::begin(of_all), std::end(of_all), word) != std::end(of_all))
+          refuse(child.place, name + "." + word, "not for one group; it belongs to the whole material");
+        else
+          others.push_back({word, child});
+      }
+      if (group.group == 0)
+        refuse(entry.place, name,
+               "group is missing; name the one that these keys are for, as the specimen has it");
+      if (std::any_of(source.groups.begin(), source.groups.end(),
+                      [&](const GroupLayer& other) { return other.group == group.group; }))
+        refuse(group.place, name, fmt::format("group {} is given twice; join the two tables", group.group));
+      if (source.groups.size() + 1 == most_materials)
+        refuse(group.place, name, fmt::format("at most {} of them", most_materials - 1));
+      walk(others, std::string(material), group.layer);
+      check_rivals(group.layer);
+      source.groups.push_back(std::move(group));
     }
   }
 
@@ -175,6 +222,7 @@ Source read_set_source(const std::vector<std::string>& sets, const std::string& 
     one.walk({{name, std::move(node)}}, "", one.source.layer);
     lay_over(all.source.layer, one.source.layer);
     if (one.source.at) all.source.at = std::move(one.source.at);
+    if (!one.source.groups.empty()) all.source.groups = std::move(one.source.groups);
   }
   return all.source;
 }

@@ -26,12 +26,20 @@ struct ConfinementLayer {
   std::string place;
 };
 
+/// Keys of the material of one cohesive group: a [[material.group]] of a case.
+struct GroupLayer {
+  int group = 0;
+  Layer layer;
+  std::string place;
+};
+
 /// What one file, or all --set together, give.
 struct Source {
   std::filesystem::path file;  ///< of a preset
   Layer layer;
   std::optional<std::vector<ConfinementLayer>> at;  ///< nothing: no [[material.at]] written
-  std::vector<std::string> tables;                  ///< tables that a --set replaces wholly
+  std::vector<GroupLayer> groups;
+  std::vector<std::string> tables;  ///< tables that a --set replaces wholly
 };
 
 /// Reads and checks every key of a case file.

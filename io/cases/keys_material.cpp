@@ -121,6 +121,23 @@ std::string law_of(const Layer& material) {
   return law == material.end() ? "dempack" : law->second.reading.word;
 }
 
+Layer layer_of_group(const GroupLayer& group, const std::string& law,
+                     const std::filesystem::path& case_folder, std::vector<std::filesystem::path>& inputs) {
+  Layer layer;
+  if (const auto preset = group.layer.find("material.preset"); preset != group.layer.end()) {
+    Source source = read_preset(preset->second.reading.word, preset->second.place, case_folder);
+    inputs.push_back(source.file);
+    layer = std::move(source.layer);
+    for (const char* of_all : {"law", "criterion", "limits", "rolling_friction", "contact_law",
+                               "shear_residual", "shear_under_yield"})
+      layer.erase(std::string(material_prefix) + of_all);
+    std::erase_if(layer, [&](const auto& entry) { return is_foreign(entry.first, facts_of(law)); });
+  }
+  lay_over(layer, group.layer);
+  layer.erase("material.preset");
+  return layer;
+}
+
 void refuse_foreign_keys(const Layer& given, const std::string& law) {
   const LawFacts& facts = facts_of(law);
   for (const auto& [name, value] : given)

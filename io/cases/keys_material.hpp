@@ -52,6 +52,13 @@ const LawFacts& facts_of(std::string_view law);
 /// The law that a material's keys ask for.
 std::string law_of(const Layer& material);
 
+/// The keys of a group's material, its preset's beneath them; those of other laws, and those that
+/// belong to the whole material, leave.
+/// @param law  of the scene
+/// @param inputs  the preset's file is added here
+Layer layer_of_group(const GroupLayer& group, const std::string& law,
+                     const std::filesystem::path& case_folder, std::vector<std::filesystem::path>& inputs);
+
 /// A key in the case for something that its law lacks is refused by name; presets may hold more
 /// than a law uses.
 void refuse_foreign_keys(const Layer& given, const std::string& law);

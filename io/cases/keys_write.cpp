@@ -47,6 +47,15 @@ void write_at(std::string& text, const std::vector<ConfinementLayer>& groups, co
   }
 }
 
+void write_groups(std::string& text, const std::vector<GroupLayer>& groups) {
+  for (const GroupLayer& group : groups) {
+    text += fmt::format("\n[[material.group]]\ngroup = {}\n", group.group);
+    for (const Key& key : all_keys())
+      if (const auto given = group.layer.find(key.name); given != group.layer.end())
+        write_line(text, key, given->second.reading);
+  }
+}
+
 }  // namespace
 
 std::string describe_values(const Key& key) {
@@ -74,11 +83,13 @@ std::string describe_values(const Key& key) {
 }
 
 std::string write_case(const Layer& keys, const Layer& base, const std::vector<ConfinementLayer>& at,
-                       const std::string& test) {
+                       const std::vector<GroupLayer>& groups, const std::string& test) {
   std::string text = fmt::format("# breccia-{}: the case with every default written out\n", test);
   std::string_view table;
   const auto end_material = [&] {
-    if (table == "material") write_at(text, at, base);
+    if (table != "material") return;
+    write_at(text, at, base);
+    write_groups(text, groups);
   };
   for (const Key& key : all_keys()) {
     const Layer& layer = table_of(key) == "material" ? base : keys;

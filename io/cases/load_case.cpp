@@ -112,6 +112,8 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
     if (row && accepts(key, test) && !layer.contains(key.name))
       layer[std::string(key.name)] = {read_default_text(key, value), ""};
   };
+  if (!from_set.groups.empty()) from_file.groups = from_set.groups;
+  if (!from_file.groups.empty()) take("bonds.between_groups", "true");
   for (const LawDefault& default_text : facts_of(law).defaults) take(default_text.key, default_text.value);
   if (const auto accuracy = layer.find("time.accuracy"); accuracy != layer.end())
     defaults.accuracy = accuracy->second.reading.word;
@@ -148,7 +150,7 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   }
   c.unusual = unusual_defaults(layer, row ? base : Layer{}, defaults);
   if (!row) {
-    c.resolved = write_case(layer, {}, {}, test);
+    c.resolved = write_case(layer, {}, {}, {}, test);
     return c;
   }
 
@@ -170,6 +172,15 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
     if (c.precision == Precision::mixed)
       refuse(given->second.place, given->first, "is not built for run.precision = \"mixed\"; leave one out");
   }
+  if (const auto given = base.find("material.contact_law");
+      given != base.end() && given->second.reading.word == "hertz-mindlin") {
+    if (plane)
+      refuse(given->second.place, given->first,
+             "Hertz's contact is one of spheres: in two dimensions leave it out");
+    if (!c.features.new_contacts)
+      refuse(given->second.place, given->first,
+             "with features.new_contacts = false no surfaces meet; leave it out");
+  }
   for (const char* name : {"material.unloading_modulus", "material.yield_stress"})
     if (const auto given = base.find(name); given != base.end() && c.precision == Precision::mixed)
       refuse(given->second.place, given->first, "is not built for run.precision = \"mixed\"; leave one out");
@@ -179,9 +190,19 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
         given != base.end() && !given->second.place.empty() && !c.features.plasticity)
       refuse(given->second.place, given->first,
              "with features.plasticity = false nothing yields; leave it out");
+  for (GroupLayer& group : from_file.groups) {
+    refuse_foreign_keys(group.layer, law);
+    group.layer = layer_of_group(group, law, file.parent_path(), c.inputs);
+    c.groups.push_back({group.group, {}, group.place});
+  }
   std::vector<ConfinementLayer> at;
   for (std::size_t k = 0; k < found.size(); ++k) {
     Layer& material = found[k].layer;
+    for (std::size_t g = 0; g < c.groups.size(); ++g) {
+      Layer own = material;
+      lay_over(own, from_file.groups[g].layer);
+      c.groups[g].materials.push_back(make_material(own, c.features, c.bonds.elasticity, file.string()));
+    }
     c.materials.push_back(make_material(material, c.features, c.bonds.elasticity, file.string()));
     c.material_notes.push_back(
         {found[k].from, found[k].from.empty() ? "" : describe_varying(layers, material), found[k].warning});
@@ -190,7 +211,8 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
     at.push_back({c.test.confinement[k], std::move(material), from});
   }
   layer.erase("material.preset");  // the resolved case carries the values themselves
-  c.resolved = write_case(layer, base, at, test);
+  check_groups(laid);
+  c.resolved = write_case(layer, base, at, from_file.groups, test);
   return c;
 }
 

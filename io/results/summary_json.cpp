@@ -92,6 +92,8 @@ void for_each_rare_field(Run& run, Visit&& visit) {
   visit("stage1_broken", run.stage1_broken);
   visit("stage1_yielded", run.stage1_yielded);
   visit("material_values", run.material_values);
+  visit("material_spheres", run.material_spheres);
+  visit("material_broken", run.material_broken);
   visit("files", run.files);
 }
 

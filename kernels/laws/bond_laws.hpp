@@ -1,5 +1,6 @@
 // The bond laws that there are, one line each.
 #pragma once
+#include <cstdint>
 #include <variant>
 
 #include "kernels/laws/contact_bond.hpp"
@@ -15,6 +16,9 @@ using BondLaw = std::variant<DempackLaw,      //
                              KdemLaw,         //
                              ContactBondLaw,  //
                              ParallelBondLaw>;
+
+/// Which of a scene's laws, where it has several materials.
+using LawIndex = std::uint8_t;
 
 /// Calls visit(type) with a default-made law of each kind; its constants mean nothing.
 template <class Visit>

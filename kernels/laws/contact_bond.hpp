@@ -20,7 +20,8 @@ struct ContactBondLaw {
       LawParameter{"bond_shear_strength", "N", 0.0, "", "s_b: shear force that breaks a bond", true},
   };
   static constexpr std::array defaults{LawDefault{"bonds.alpha", "1"}};
-  static constexpr std::array feature_sets{Features{.plasticity = false}};
+  static constexpr std::array feature_sets{Features{.plasticity = false},
+                                           Features{.plasticity = false, .several = true}};
 
   double young = 0;        ///< Pa, only for what needs a wave speed
   double shear_ratio = 0;  ///< k_s/k_n

@@ -28,6 +28,8 @@ struct DempackLaw {
       Features{.criterion = Criterion::coupled},
       Features{.unloading = true},
       Features{.criterion = Criterion::coupled, .unloading = true},
+      Features{.unloading = true, .several = true},
+      Features{.criterion = Criterion::coupled, .unloading = true, .several = true},
   };
 
   double young = 0;        ///< Pa; E of the bonds: k_n = E A/L

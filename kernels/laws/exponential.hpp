@@ -23,7 +23,10 @@ struct ExponentialLaw {
       LawParameter{"hardening_floor", "1", 0.0, "0.275", "gamma_3: of the constant part of K2/k_n"},
   };
   static constexpr std::array defaults{LawDefault{"test.hydrostatic_branch", "law"}};
-  static constexpr std::array feature_sets{Features{.criterion = Criterion::mohr_coulomb}};
+  static constexpr std::array feature_sets{
+      Features{.criterion = Criterion::mohr_coulomb},
+      Features{.criterion = Criterion::mohr_coulomb, .several = true},
+  };
 
   double young = 0;        ///< Pa
   double shear_ratio = 0;  ///< k_s/k_n

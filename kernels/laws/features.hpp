@@ -28,6 +28,7 @@ struct Features {
   bool breakage = true;         ///< damage, failure, Coulomb friction afterwards
   Criterion criterion = Criterion::uncoupled;
   bool unloading = false;  ///< bonds that have yielded go back on another line than k_n (B118)
+  bool several = false;    ///< bonds of several materials, each under a law of its own (B125)
 
   constexpr bool operator==(const Features&) const = default;
 
@@ -39,7 +40,8 @@ struct Features {
                asks_coupled = other.criterion == Criterion::coupled;
     return (rotation || !other.rotation) && (contact_damping || !other.contact_damping) &&
            (plasticity || !other.plasticity) && (breakage || !other.breakage) &&
-           (unloading || !other.unloading) && (!other.breakage || coupled == asks_coupled);
+           (unloading || !other.unloading) && several == other.several &&
+           (!other.breakage || coupled == asks_coupled);
   }
 };
 

@@ -19,7 +19,8 @@ struct KdemLaw {
   };
   static constexpr std::array defaults{LawDefault{"bonds.area", "polyhedron"},
                                        LawDefault{"bonds.alpha", "1"}};
-  static constexpr std::array feature_sets{Features{.plasticity = false}};
+  static constexpr std::array feature_sets{Features{.plasticity = false},
+                                           Features{.plasticity = false, .several = true}};
 
   double young = 0;        ///< Pa, alpha E
   double shear_ratio = 0;  ///< beta/alpha/(2(1 + nu))

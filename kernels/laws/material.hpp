@@ -17,6 +17,9 @@ enum class ShearUnderYield : unsigned char { tangent, elastic };
 /// What limit_compressive_stress is a stress of: a bond, or a specimen under even pressure. (B109)
 enum class LimitStress : unsigned char { bond, macroscopic };
 
+/// How surfaces press that were never bonded.
+enum class ContactLaw : unsigned char { linear, hertz_mindlin };
+
 /// Parameters of a bond law for one confinement; their names are those of Onate et al. 2015, tables
 /// 2 to 6. Which of them a law takes, its header says.
 struct Material {
@@ -44,6 +47,7 @@ struct Material {
   Criterion criterion = Criterion::uncoupled;
   ShearUnderYield shear_under_yield = ShearUnderYield::tangent;
   LimitStress limits = LimitStress::bond;
+  ContactLaw contact_law = ContactLaw::linear;
   std::map<std::string, double, std::less<>> own;  ///< parameters that one law alone has, by their keys
 };
 

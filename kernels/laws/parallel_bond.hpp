@@ -20,7 +20,8 @@ struct ParallelBondLaw {
                    "beta: part of the moments' stresses that counts for breaking"},
   };
   static constexpr std::array<LawDefault, 0> defaults{};
-  static constexpr std::array feature_sets{Features{.plasticity = false}};
+  static constexpr std::array feature_sets{Features{.plasticity = false},
+                                           Features{.plasticity = false, .several = true}};
 
   double young = 0;        ///< Pa
   double shear_ratio = 0;  ///< k_s/k_n

@@ -7,6 +7,7 @@
 #pragma once
 #include <algorithm>
 
+#include "kernels/loops/batch_laws.hpp"
 #include "kernels/loops/bond_column.hpp"
 #include "kernels/loops/bond_ledger.hpp"
 #include "kernels/loops/bond_pass.hpp"
@@ -124,18 +125,6 @@ template <Features features, class Bonds>
     }
 }
 
-[[gnu::always_inline]] inline auto damaged_lanes(const BondHistory<Lanes>& h) {
-  return h.damage_normal > 0.0 || h.damage_shear > 0.0;
-}
-
-template <Features features>
-[[gnu::always_inline]] inline bool is_damaged(const BondHistory<Lanes>& h) {
-  if constexpr (features.breakage)
-    return any(damaged_lanes(h));
-  else
-    return false;
-}
-
 /// Losses of a batch, added to those of its block; forces that do not follow from the state are
 /// kept for the next step.
 template <Features features, class Law, class Bonds>
@@ -144,18 +133,9 @@ template <Features features, class Law, class Bonds>
                                                const BondHistory<Lanes>& before, const BondHistory<Lanes>& h,
                                                const BondAction<Lanes>& action, const Bonds& bonds,
                                                std::size_t b, BondLosses<Lanes>& sum) {
-  const Lanes stretch = elongation(ends, pair, dt);
-  Lanes viscous(0.0);
-  if constexpr (features.contact_damping) viscous = bonds.template load<Column::viscous_force>(b);
-  LastForces<Lanes> last = forces_before<features>(law, bond, pair, stretch, before, viscous);
-  if (is_damaged<features>(before)) {
-    // bond by bond: which others share a register changes with the processor and the number of
-    // ranks
-    const auto damaged = damaged_lanes(before);
-    last.spring = select(damaged, bonds.template load<Column::spring_force>(b), last.spring);
-    last.shear_factor = select(damaged, bonds.template load<Column::shear_factor>(b), last.shear_factor);
-  }
-  const BondLosses<Lanes> loss = losses_of_step<features>(law, bond, pair, stretch, before, h, action, last);
+  LastForces<Lanes> last;
+  const BondLosses<Lanes> loss = losses_of_batch<features>(law, bond, pair, elongation(ends, pair, dt),
+                                                           before, h, action, bonds, b, last);
   if constexpr (features.contact_damping) bonds.template store<Column::viscous_force>(b, last.viscous);
   if (is_damaged<features>(h)) {
     bonds.template store<Column::spring_force>(b, last.spring);
@@ -205,7 +185,7 @@ template <Features features, bool ledger, class Law, class Bonds>
       if constexpr (features.contact_damping) bond.damping = bonds.template load<Column::damping>(b);
       const BondHistory<Lanes> before = history_of<features>(bonds, b);
       BondHistory<Lanes> h = before;
-      const BondAction<Lanes> action = bond_action<features>(law, bond, pair, h);
+      const BondAction<Lanes> action = act_on_batch<features>(law, b, bond, pair, h);
       const Vec<Lanes> force = force_on_lo(action, pair);
       keep_history<features>(bonds, h, before, b, notes);
       if constexpr (ledger)

@@ -55,10 +55,16 @@ template <std::size_t k>
 [[gnu::flatten]] void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first,
                                 std::size_t last, const Scatter& to, BreakNotes* notes) {
   constexpr KernelKind kernel = kernel_list[k];
+  using Law = LawOfKernel<k>;
   const auto run = [&](const auto& bonds) {
-    bond_loop<kernel.features, kernel.kind.ledger>(*static_cast<const LawOfKernel<k>*>(in.law), in.dt,
-                                                   ParticleRows(in), bonds, first, last, to, notes,
-                                                   history.ledger.losses);
+    const auto under = [&](const auto& law) {
+      bond_loop<kernel.features, kernel.kind.ledger>(law, in.dt, ParticleRows(in), bonds, first, last, to,
+                                                     notes, history.ledger.losses);
+    };
+    if constexpr (kernel.features.several)
+      under(LawTable<Law>{in.laws, in.law});
+    else
+      under(*std::get_if<Law>(in.laws.data()));
   };
   if constexpr (kernel.kind.precision == Precision::full)
     run(ColumnBonds<double>{in, in.constants, history.full, history.ledger});

@@ -31,13 +31,15 @@ struct BondHistoryColumns {
 /// by bond row; columns of absent features, and those of the precision that does not run, are
 /// empty.
 struct BondPassIn {
-  double dt = 0;              ///< s
-  const void* law = nullptr;  ///< constants, of the type that the kernel was chosen for (see constants_of)
+  double dt = 0;  ///< s
+  std::span<const BondLaw>
+      laws;  ///< of the kind that the kernel was chosen for; one, but of several materials
   Strided<const Vec3> position, velocity, spin;
   std::span<const Index> row_lo, row_hi;
   std::span<const double> rest_length;
   BondConstantColumns<double> constants;
   BondConstantColumns<float> narrow_constants;
+  std::span<const LawIndex> law = {};  ///< of several materials: which of the laws
 };
 
 /// What the pass keeps of energies, where the scene has a ledger.
@@ -79,10 +81,5 @@ Features built_features(const BondLaw& law, const Features& asked, const LoopKin
 /// @throws std::invalid_argument when there is none, or none of this kind
 BondPass bond_pass_for(const BondLaw& law, const Features& built, InstructionSet set,
                        const LoopKind& kind = {});
-
-/// The law's constants as the kernel takes them; valid as long as the law.
-inline const void* constants_of(const BondLaw& law) {
-  return std::visit([](const auto& l) -> const void* { return &l; }, law);
-}
 
 }  // namespace breccia

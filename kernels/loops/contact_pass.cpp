@@ -4,7 +4,14 @@ namespace breccia {
 namespace {
 
 ContactConstants constants_of_contact(const ContactPassIn& in, std::size_t c) {
-  return {in.stiffness[c], in.shear_ratio, in.damping.empty() ? 0.0 : in.damping[c], in.friction};
+  const std::size_t law = in.law.empty() ? 0 : in.law[c];
+  const bool hertz = !in.hertz_normal.empty();
+  return {in.stiffness[c],
+          in.shear_ratio[law],
+          in.damping.empty() ? 0.0 : in.damping[c],
+          in.friction[law],
+          hertz ? in.hertz_normal[c] : 0.0,
+          hertz ? in.hertz_tangential[c] : 0.0};
 }
 
 template <bool rotation>
@@ -15,6 +22,11 @@ Ends<double> ends_of_contact(const ContactPassIn& in, std::size_t c) {
   return ends_of(end(in.row_lo[c]), end(in.row_hi[c]));
 }
 
+/// J, in the spring across.
+double friction_energy(const Vec3& shear, double stiffness) {
+  return stiffness > 0.0 ? 0.5 * dot(shear, shear) / stiffness : 0.0;
+}
+
 /// Books the step of a contact: trapezoids, with the forces that the step before ended with.
 /// @param rotated  N, friction force as it came into the step, turned with the pair
 /// @param along    N, force along the normal with the dashpot; tension positive
@@ -22,13 +34,15 @@ void book(const ContactPassIn& in, const ContactPassHistory& history, std::size_
           const Pair<double>& pair, const Vec3& rotated, double along) {
   const ContactConstants contact = constants_of_contact(in, c);
   const double overlap = larger(0.0, history.free_length[c] - pair.distance);
-  const double viscous = along + contact.stiffness * overlap;
+  const SurfaceSpring spring = surface_spring(contact, overlap);
+  const double viscous = along + spring.force;
   const Vec3& shear = history.shear_force[c];
   ContactLosses& loss = history.losses[c / ForceBuffer::capacity];
   // (B55)
   loss.viscous += 0.5 * (history.viscous_force[c] + viscous) * elongation(ends, pair, in.dt);
-  const double k_s = contact.shear_ratio * contact.stiffness;
-  const double kept = k_s > 0.0 ? 0.5 * (dot(shear, shear) - dot(rotated, rotated)) / k_s : 0.0;
+  const double before = larger(0.0, history.free_length[c] - pair.distance + pair.stretching);
+  const double kept = friction_energy(shear, spring.across) -
+                      friction_energy(rotated, surface_spring(contact, before).across);
   loss.friction += 0.5 * dot(rotated + shear, pair.slip) - kept;  // (B53)
   history.viscous_force[c] = viscous;
 }
@@ -40,8 +54,10 @@ Vec3 pressed_force(const ContactPassIn& in, const ContactPassHistory& history, s
   Vec3& shear = history.shear_force[c];
   const ContactConstants contact = constants_of_contact(in, c);
   const Vec3 rotated = rotate_with_pair<rotation>(shear, pair);
-  shear = rotated + (contact.shear_ratio * contact.stiffness) * pair.slip;
-  const Vec3 force = linear_contact_force(contact, history.free_length[c] - pair.distance, pair, shear);
+  const double overlap = history.free_length[c] - pair.distance;
+  const double across = surface_spring(contact, larger(0.0, overlap)).across;
+  shear = friction_held(contact, rotated, overlap, overlap + pair.stretching) + across * pair.slip;
+  const Vec3 force = surface_force(contact, overlap, pair, shear);
   moment = pair.distance * cross(pair.normal, force);
   if (!history.losses.empty()) book(in, history, c, ends, pair, rotated, dot(force - shear, pair.normal));
   return force;

@@ -2,7 +2,8 @@
 #pragma once
 #include <span>
 
-#include "kernels/laws/linear_contact.hpp"
+#include "kernels/laws/bond_laws.hpp"
+#include "kernels/laws/surface_contact.hpp"
 #include "kernels/loops/scatter.hpp"
 
 namespace breccia {
@@ -13,15 +14,16 @@ struct ContactLosses {
 };
 
 struct ContactPassIn {
-  double dt = 0;           ///< s
-  double shear_ratio = 0;  ///< k_s/k_n
-  double friction = 0;     ///< mu_2
+  double dt = 0;                                  ///< s
+  std::span<const double> shear_ratio, friction;  ///< k_s/k_n and mu_2: one, or by law
   bool rotation = true;
   Strided<const Vec3> position, velocity, spin;
   std::span<const double> radius;
   std::span<const Index> row_lo, row_hi;
   std::span<const double> arm_offset, stiffness,
-      damping;  ///< arm_offset empty without rotation, damping may be
+      damping;                         ///< arm_offset empty without rotation, damping may be
+  std::span<const LawIndex> law = {};  ///< of several materials
+  std::span<const double> hertz_normal = {}, hertz_tangential = {};  ///< empty: linear
 };
 
 struct ContactPassHistory {

@@ -15,12 +15,14 @@ struct KernelKind {
   LoopKind kind;
 };
 
-/// True when no other set of the law has all that `features` has; what unloads elsewhere stands by
-/// itself, since others would pay for it.
+/// True when no other set of the law has all that `features` has; what unloads elsewhere, and what
+/// has several materials, stands by itself, since others would pay for it.
 template <class Law>
 constexpr bool is_fullest(const Law& law, const Features& features) {
   for (const Features& other : law.feature_sets)
-    if (!(other == features) && other.unloading == features.unloading && other.covers(features)) return false;
+    if (!(other == features) && other.unloading == features.unloading && other.several == features.several &&
+        other.covers(features))
+      return false;
   return true;
 }
 

@@ -25,13 +25,15 @@ struct RollingScene {
 struct RollingPairs {
   std::span<const Index> row_lo, row_hi;
   std::span<const double> free_length, plastic_stretch, stiffness, damage_normal, damage_shear;
-  std::span<Vec3> couple;  ///< N m, on lo
+  std::span<Vec3> couple;                     ///< N m, on lo
+  std::span<const double> hertz_normal = {};  ///< N/m^1.5; empty: linear
 
   /// N, with which surfaces press; nothing through a bond.
   double pressed(std::size_t k, double distance) const {
     if (!damage_normal.empty() && damage_normal[k] < 1.0 && damage_shear[k] < 1.0) return 0.0;
     const double plastic = plastic_stretch.empty() ? 0.0 : plastic_stretch[k];
-    return larger(0.0, stiffness[k] * (free_length[k] + plastic - distance));
+    const double overlap = larger(0.0, free_length[k] + plastic - distance);
+    return hertz_normal.empty() ? stiffness[k] * overlap : hertz_normal[k] * overlap * std::sqrt(overlap);
   }
 };
 

@@ -146,6 +146,41 @@ class SeveralRanks(ProgramTest):
         self.assertLess(ours["energy_error"], 1e-3)
         self.assertAlmostEqual(ours["young_modulus_Pa"] / 28e9, 1, delta=0.02)
 
+    def test_several_materials(self):
+        """Three layers and Hertz contacts, stopped and taken up again on other ranks: the bits of one rank."""
+        with (self.shelf / "packed" / "specimen.csv").open(newline="") as file:
+            spheres = [row for row in csv.DictReader(line for line in file if not line.startswith("#"))]
+        lines = [",".join([*row.values(), "2" if abs(float(row["z_m"])) < 0.015 else "7" if float(row["x_m"]) > 0 else "1"])
+                 for row in spheres]
+        self.write("specimen.csv", "\n".join(["id,x_m,y_m,z_m,r_m,group", *lines, ""]))
+        case = self.write("layers.toml", UCS.replace("[test]", """contact_law = "hertz-mindlin"
+[[material.group]]
+group = 2
+young_modulus = "14 GPa"
+density = 2000
+tensile_strength = "2 MPa"
+[[material.group]]
+group = 7
+poisson_ratio = 0.1
+shear_strength = "30 MPa"
+friction_dynamic = 0.6
+[test]"""))
+        options = (*GATHER, "--threads", "1", "--quiet")
+        process = self.launch_and_hold("crack:20", 3, "ucs", case, *options, "--out", self.out)
+        process.send_signal(signal.SIGUSR1)
+        self.finish(process, 130)
+        self.finish(self.launch(2, "ucs", case, *options, "--out", self.out, "--resume"))
+        alone = run("ucs", case, *options, "--out", self.work / "one")
+        self.assertEqual(alone.returncode, 0, alone.stderr)
+        ours, theirs = (json.loads((f / "summary.json").read_text())["runs"][0] for f in (self.out, self.work / "one"))
+        for key in ("state_hash", "material_spheres", "material_broken", "broken_shear", "steps"):
+            self.assertEqual(ours[key], theirs[key], key)
+        self.assertEqual(sum(ours["material_spheres"]), len(spheres))
+        self.assertGreater(ours["material_broken"][1], ours["material_broken"][2])  # the weak layer breaks
+        self.assertLess(theirs["energy_error"], 1e-3)
+        with h5py.File(self.out / "results.h5") as mine:
+            np.testing.assert_array_equal(np.unique(mine["run-0/particles/material"][()]), [0, 1, 2])
+
     def test_ranks_without_a_contact(self):
         # bonds so long that nothing unbonded is near, but around one loose sphere, which is the second rank's
         with (self.shelf / "packed" / "specimen.csv").open(newline="") as file:

@@ -112,6 +112,22 @@ alpha = "auto\"""")
         self.refused("case.toml:14", "bonds.alpha", '"contact-bond"', case=glue)
         self.refused("case.toml:7", "material.law", "dimensions", case=glue.replace('[bonds]\nalpha = "auto"\n', ""))
 
+    def test_groups(self):
+        def groups(text):
+            return UCS.replace("[test]", text + "\n[test]")
+        group = "[[material.group]]\ngroup = 2\n"
+        self.refused("case.toml:8", "material.group", "no sphere of group 2", "it has 1", case=groups(group))
+        self.refused("case.toml:7", "material.group", "group is missing", case=groups("[[material.group]]\ndensity = 2000"))
+        self.refused("case.toml:10", "material.group", "group 2 is given twice", case=groups(group + group))
+        self.refused("case.toml:9", "material.group.law", "whole material", case=groups(group + 'law = "kdem"'))
+        self.refused("case.toml:9", "material.density", case=groups(group + 'density = "2 m"'))
+        self.refused("case.toml:9", "material.densty", "density", case=groups(group + "densty = 2000"))
+        self.refused("case.toml:8", "material.group", "fracture_energy_normal", "no mean",
+                     case=groups(group + 'fracture_energy_normal = "50 J/m^2"'))
+        self.refused("case.toml:8", "material.group.group", case=groups("[[material.group]]\ngroup = 0"))
+        self.refused("case.toml:7", "material.contact_law", "new_contacts",
+                     case=groups('contact_law = "hertz-mindlin"\n[features]\nnew_contacts = false'))
+
     def test_pack(self):
         pack = '[specimen]\ndiameter = "50 mm"\nheight = "100 mm"\npack.spheres = 300\npack.porosity = 1.2\n'
         self.refused("case.toml:5", "specimen.pack.porosity", program="pack", case=pack)

@@ -112,7 +112,8 @@ TEST_CASE("parallel bond: the critical step of a pair counts its twisting mode [
   World w = pair({});
   w.bonds.area[0] *= 30;  // a collar so wide that twisting is the fastest
   const double twist = kappa * k_n * (30 * r * r) / 2, inertia = 0.4 * w.particles.mass[0] * r * r;
-  const StepScene s{w.particles, w.bonds, w.contacts, w.dashpots, kappa, 0, 0, {true, false, 0.4, true}, 1};
+  const StepScene s{
+      w.particles, w.bonds, w.contacts, w.dashpots, {&kappa, 1}, 0, 0, {true, false, 0.4, true}, 1};
   CHECK(exact_time_step(s) == doctest::Approx(2 / std::sqrt(2 * twist / inertia)).epsilon(1e-6));
 }
 

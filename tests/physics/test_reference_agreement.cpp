@@ -131,7 +131,7 @@ TEST_CASE(
       for (int set = 0; set <= static_cast<int>(best_instruction_set()); ++set) {
         if (threads == 2 && set != static_cast<int>(best_instruction_set())) continue;
         World w = make_torn(criterion, scatter, threads, 100, follows).world;
-        w.bond_pass = bond_pass_for(w.law, w.features, static_cast<InstructionSet>(set));
+        w.bond_pass = bond_pass_for(w.laws.front(), w.features, static_cast<InstructionSet>(set));
         for (int k = 0; k < steps; ++k) advance(w);
         const ParticleTable& p = w.particles;
         INFO("criterion ", int(criterion), ", scatter ", int(scatter), ", threads ", threads, ", set ", set);

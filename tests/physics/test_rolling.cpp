@@ -47,7 +47,8 @@ TEST_CASE(
   const Vec3 about_x{100, 0, 0};
   const double R = 0.01 * 0.015 / 0.025;
   World w = pressed_pair(about_x, {}, 1e-5);
-  const double k = w.shear_ratio * w.bonds.stiffness[0] * R * R, most = 0.3 * w.bonds.stiffness[0] * 1e-5 * R;
+  const double k = w.shear_ratio.front() * w.bonds.stiffness[0] * R * R,
+               most = 0.3 * w.bonds.stiffness[0] * 1e-5 * R;
   const auto turn = [&](double angle) {  // as a whole, about x
     w.particles.spin[0] = {angle / w.dt, 0, 0}, w.particles.spin[1] = {};
     w.particles.velocity[0] = w.particles.velocity[1] = {};

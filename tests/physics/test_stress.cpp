@@ -224,7 +224,7 @@ TEST_CASE(
   MESSAGE("lateral over axial stress: ", s.normal.x / s.normal.z, " ", s.normal.y / s.normal.z,
           ", at the walls ", pressure / axial);
   // uniaxial strain: nu/(1 - nu) of the affine network, nu = (1 - kappa)/(4 + kappa)
-  const double kappa = w.shear_ratio, nu = (1 - kappa) / (4 + kappa);
+  const double kappa = w.shear_ratio.front(), nu = (1 - kappa) / (4 + kappa);
   CHECK(0.5 * (s.normal.x + s.normal.y) / s.normal.z == doctest::Approx(nu / (1 - nu)).epsilon(0.08));
 }
 

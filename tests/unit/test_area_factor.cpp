@@ -35,7 +35,7 @@ std::vector<double> stiffness(const Assembly& a, double alpha = 1) {
 
 /// What the specimen does with areas times alpha: measured anew.
 ElasticResponse measure(const AreaFactor& f) {
-  return probe(packing(), stiffness(packing(), f.alpha), f.shear_ratio, true, 2);
+  return probe(packing(), stiffness(packing(), f.alpha), {&f.shear_ratio, 1}, true, 2);
 }
 
 }  // namespace
@@ -107,10 +107,11 @@ TEST_CASE(
   REQUIRE(a.particles.position[19].z == doctest::Approx(-0.05));
   REQUIRE(a.particles.position[20].z == doctest::Approx(0.05));
   for (Row k = 0; k < 19; ++k) a.lateral.push_back(k);
+  const double ratio = 0.4;
   const double want = 28e9 * std::numbers::pi * 0.0025 * 0.0025 / (std::numbers::pi * 0.025 * 0.025);
-  CHECK(probe(a, stiffness(a), 0.4, true, 1).young_modulus == doctest::Approx(want).epsilon(1e-6));
-  const ElasticResponse one = probe(packing(), stiffness(packing()), 0.4, true, 1),
-                        two = probe(packing(), stiffness(packing()), 0.4, true, 2);
+  CHECK(probe(a, stiffness(a), {&ratio, 1}, true, 1).young_modulus == doctest::Approx(want).epsilon(1e-6));
+  const ElasticResponse one = probe(packing(), stiffness(packing()), {&ratio, 1}, true, 1),
+                        two = probe(packing(), stiffness(packing()), {&ratio, 1}, true, 2);
   CHECK(one.young_modulus == two.young_modulus);
   CHECK(one.poisson_ratio == two.poisson_ratio);
 }

@@ -129,7 +129,7 @@ Loads pass(Bundle& s, const Features& features, InstructionSet set) {
   to.bond_load = c.load;
   const BondLaw law = scene::law(s.parameters);
   bond_pass_for(law, features, set)({s.dt,
-                                     constants_of(law),
+                                     {&law, 1},
                                      p.position,
                                      p.velocity,
                                      p.spin,
@@ -137,7 +137,8 @@ Loads pass(Bundle& s, const Features& features, InstructionSet set) {
                                      b.row_hi,
                                      b.rest_length,
                                      constant_columns(b),
-                                     {}},
+                                     {},
+                                     b.law},
                                     {history_columns(b), {}}, 0, b.padded, to, nullptr);
   return c;
 }

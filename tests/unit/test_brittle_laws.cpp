@@ -91,7 +91,7 @@ TEST_CASE("kdem: factors alpha and beta on k_n = E A/d0 and k_s = E A/(2 (1 + nu
   for (std::size_t k = 0; k < 3; ++k) {
     const double plain = 28e9 * std::numbers::pi * smaller[k] * smaller[k] / length[k];
     CHECK(w.bonds.stiffness[k] == doctest::Approx(1.3 * plain).epsilon(1e-13));
-    CHECK(w.shear_ratio * w.bonds.stiffness[k] == doctest::Approx(0.7 * plain / 2.4).epsilon(1e-13));
+    CHECK(w.shear_ratio.front() * w.bonds.stiffness[k] == doctest::Approx(0.7 * plain / 2.4).epsilon(1e-13));
   }
 }
 
@@ -136,7 +136,7 @@ TEST_CASE("contact bond: k_n and k_s and the damping's k_n do not depend on the 
     const World w = make_world(a, glue_material(), factor, o);
     for (std::size_t k = 0; k < w.bonds.size; ++k) {
       CHECK(w.bonds.stiffness[k] == 2e10);
-      CHECK(w.shear_ratio * w.bonds.stiffness[k] == doctest::Approx(5e9).epsilon(1e-14));
+      CHECK(w.shear_ratio.front() * w.bonds.stiffness[k] == doctest::Approx(5e9).epsilon(1e-14));
       const double m = w.particles.mass[w.bonds.row_lo[k]], n = w.particles.mass[w.bonds.row_hi[k]];
       CHECK(w.bonds.damping[k] ==
             doctest::Approx(2 * 0.9 * std::sqrt(m * n / (m + n) * 2e10)).epsilon(1e-13));

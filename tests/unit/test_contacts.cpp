@@ -7,7 +7,9 @@
 
 #include "core/stepping/step.hpp"
 #include "core/world/energies.hpp"
+#include "core/world/energy_accounting.hpp"
 #include "core/world/make_world.hpp"
+#include "kernels/laws/hertz_mindlin.hpp"
 #include "tests/scene.hpp"
 
 using namespace breccia;
@@ -188,8 +190,9 @@ TEST_CASE("contacts: a new list keeps the friction and free length of pairs in c
                                                             w.contacts.shear_force[k]};
   }
   w.particles.position[3] = {0.0305, 0, 0};  // a new neighbour, so that rows shift
-  rebuild_neighbour_list(w.neighbour_list, w.contacts, w.particles, {w.material.young_modulus, w.alpha},
-                         w.options.features, false, 1);
+  rebuild_neighbour_list(
+      w.neighbour_list, w.contacts, w.particles,
+      {w.contact_young, w.contact_poisson, w.shear_ratio, 1, w.alpha, Space::three_d, contact_columns(w)}, 1);
   CHECK(w.contacts.size > before.size());
   std::size_t kept = 0;
   for (std::size_t k = 0; k < w.contacts.size; ++k) {
@@ -245,4 +248,83 @@ TEST_CASE("contacts: lists every N steps, and refused where spheres may have met
     for (int step = 0; step < 700; ++step) advance(too_long);
   };
   CHECK_THROWS_WITH_AS(run(), doctest::Contains("run.search_every = 700 is too long"), SimulationBroke);
+}
+
+namespace {
+
+/// Two spheres that meet, and a bonded pair far away; Hertz's contacts, no damping.
+World two_that_meet(const Vec3& velocity, double friction, const Vec3& spin = {}) {
+  ref::Parameters p;
+  p.xi = p.damping_translation = p.damping_rotation = 0;
+  std::vector<Ball> balls{{1, 0.01, {0, 0, 0}, 0, 0.5 * velocity, spin},
+                          {2, 0.006, {0.0161, 0, 0}, 0, -0.5 * velocity, -spin}};
+  add_bonded_pair(balls);
+  Material m = scene::material_of(p);
+  m.contact_law = ContactLaw::hertz_mindlin;
+  m.friction_dynamic = friction;
+  WorldOptions o = scene::options(p);
+  o.ledger = true;
+  const Features columns = built_features(scene::law(p), o.features, {Precision::full, true});
+  World w = make_world(scene::free_body(balls, p.beta, columns), m, scene::factor(p), o);
+  w.dt = 2e-8;
+  return w;
+}
+
+}  // namespace
+
+TEST_CASE("contacts: Hertz's impact between two spheres of a bonded scene [closed form, 1e-3]") {
+  World w = two_that_meet({3, 0, 0}, 0);
+  const ParticleTable& p = w.particles;
+  const ElasticBody a{w.material.young_modulus, w.material.poisson_ratio, 1 / 0.01, 1 / p.mass[0]};
+  ElasticBody b = a;
+  b.curvature = 1 / 0.006;
+  const HertzMindlin law = hertz_mindlin(a, b, 0, 0);
+  const double reduced = p.mass[0] * p.mass[1] / (p.mass[0] + p.mass[1]);
+  const HertzImpact wanted = hertz_impact(law.normal, reduced, 3);
+  double most = 0, force = 0;
+  std::uint64_t first = 0, last = 0;
+  for (int k = 0; k < 10000; ++k) {
+    const double overlap = 0.016 - norm(p.position[1] - p.position[0]);
+    if (overlap > 0) first = first ? first : w.step, last = w.step;
+    const Vec3 before = p.velocity[0];
+    advance(w);
+    most = std::max(most, overlap);
+    force = std::max(force, norm(p.velocity[0] - before) * p.mass[0] / w.dt);
+  }
+  REQUIRE(last > first);
+  CHECK(w.contacts.hertz_normal[0] == doctest::Approx(law.normal).epsilon(1e-12));
+  CHECK(w.contacts.hertz_tangential[0] == doctest::Approx(law.tangential).epsilon(1e-12));
+  CHECK(most == doctest::Approx(wanted.overlap).epsilon(1e-3));
+  CHECK(force == doctest::Approx(wanted.force).epsilon(1e-3));
+  CHECK(double(last - first + 1) * w.dt == doctest::Approx(wanted.duration).epsilon(2e-3));
+  CHECK(norm(p.velocity[1] - p.velocity[0]) == doctest::Approx(3).epsilon(1e-4));
+}
+
+TEST_CASE("contacts: an oblique impact of Hertz and Mindlin only loses energy, and it is booked [1e-4]") {
+  for (const double friction : {0.0, 0.2, 5.0}) {
+    World w = two_that_meet({2, 2, 0}, friction, {0, 0, 40});
+    double dissipated = 0;
+    for (int k = 0; k < 12000; ++k) {
+      advance(w);
+      if (k % 50 != 0) continue;
+      const EnergyBalance e = energy_balance(w);
+      CHECK(e.dissipated() >= dissipated - 1e-9 * e.work);
+      CHECK(std::abs(e.imbalance()) < 1e-4 * e.work);
+      dissipated = e.dissipated();
+    }
+    CHECK(w.contacts.size > 0);
+    const EnergyBalance e = energy_balance(w);
+    CHECK(std::abs(e.stored) < 1e-9 * e.work);  // they have parted
+    CHECK((e.friction > 1e-3 * e.work) == (friction > 0));
+  }
+}
+
+TEST_CASE("contacts: the step counts Hertz's with what it has at a tenth of the smaller radius [1e-12]") {
+  World w = two_that_meet({3, 0, 0}, 0.3);
+  while (w.contacts.size == 0) advance(w);
+  const double root = std::sqrt(0.1 * 0.006);
+  const ContactTable& c = w.contacts;
+  CHECK(c.stiffness[0] ==
+        doctest::Approx(std::max(1.5 * c.hertz_normal[0], c.hertz_tangential[0] / w.shear_ratio[0]) * root)
+            .epsilon(1e-12));
 }

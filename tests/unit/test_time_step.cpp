@@ -283,8 +283,9 @@ TEST_CASE("time step: what contacts add to the stability number stays below its 
   World w = make_world(a, scene::material_of(p), scene::factor(p), o);
   const double without = estimate_step(scene_of(w), w.dt).number;
   w.neighbour_list.skin *= 5;  // many at once
-  rebuild_neighbour_list(w.neighbour_list, w.contacts, w.particles, {w.material.young_modulus, w.alpha},
-                         o.features, false, 1);
+  rebuild_neighbour_list(
+      w.neighbour_list, w.contacts, w.particles,
+      {w.contact_young, w.contact_poisson, w.shear_ratio, 1, w.alpha, Space::three_d, contact_columns(w)}, 1);
   REQUIRE(w.contacts.size > 20);
   std::vector<std::size_t> all(w.contacts.size);
   std::iota(all.begin(), all.end(), std::size_t{0});

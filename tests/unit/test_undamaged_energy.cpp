@@ -22,7 +22,7 @@ double energy_of_bond(const World& w, std::size_t k, double back) {
       [&](const auto& law) {
         return stored_energy(law, constants_of_bond(b, k), history_of_bond(b, k), distance, false);
       },
-      w.law);
+      w.laws.front());
 }
 
 bool is_damaged(const BondTable& b, std::size_t k) {

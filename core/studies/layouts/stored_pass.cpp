@@ -44,8 +44,8 @@ template <std::size_t block>
                                   const Scatter& to) {
   static_assert(block == 1 || block % width == 0);
   const BlockBonds<block> bonds{in, stored};
-  bond_loop<Features{}, false>(*static_cast<const DempackLaw*>(in.law), in.dt, ParticleRows(in), bonds, first,
-                               last, to, nullptr);
+  bond_loop<Features{}, false>(*std::get_if<DempackLaw>(in.laws.data()), in.dt, ParticleRows(in), bonds,
+                               first, last, to, nullptr);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ double exact_time_step(const World& w) {
   const BondTable& b = w.bonds;
   if (b.size == 0) return std::numeric_limits<double>::infinity();
   const Eigen::MatrixXd stiffness = scaled_matrix(w, [&](std::size_t k) {
-    return SpringConstants{b.stiffness[k], w.shear_ratio * b.stiffness[k]};
+    return SpringConstants{b.stiffness[k], w.shear_ratio.front() * b.stiffness[k]};
   });
   const Eigen::MatrixXd damping = scaled_matrix(w, [&](std::size_t k) {
     return SpringConstants{b.damping.empty() ? 0.0 : b.damping[k], 0.0};

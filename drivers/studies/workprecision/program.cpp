@@ -155,6 +155,9 @@ private:
 void run_study(const WorkPrecisionOptions& options) {
   const std::string test = test_of_case(options.case_file, options.sets);
   const Case c = load_case(options.case_file, options.sets, test);
+  if (!c.groups.empty())
+    fail<BadInput>("{}: material.group: a study of work and precision has one material; leave it out",
+                   c.groups.front().place);
   Progress progress = make_progress(options.quiet);
   WorkPrecisionResults results;
   results.machine = describe_machine();
