@@ -104,6 +104,10 @@ std::string describe_keys(const std::string& test) {
     if (table_of(key) != table) table = table_of(key), text += fmt::format("\n[{}]\n", table);
     text += fmt::format("  {:<25} {:<44} {:<12} {}\n", word_of(key), describe_values(key),
                         describe_default(key, test), key.meaning);
+    if (key.name == "material.preset" && find_laboratory_test(test))
+      text +=
+          fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[group]] group", "a whole number, from 1", "-",
+                      "a table [[material.group]]: keys of the material for one cohesive group of spheres");
     if (key.name == "material.preset" && accepts(*find_key("test.confinement"), test))
       text +=
           fmt::format("  {:<25} {:<44} {:<12} {}\n", "[[at]] confinement", "a stress", "-",

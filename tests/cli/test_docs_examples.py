@@ -34,7 +34,7 @@ def keys_of(program):
             table = line.strip("# `[]").replace(".NAME]", "").strip("]")
         if match := re.match(r"\| `(\w+)` \|", line):
             found.add(f"{table}.{match[1]}")
-    return found | {"material.at.confinement"}
+    return found | {"material.at.confinement", "material.group.group"}
 
 
 def flat(tree, prefix=""):
@@ -95,7 +95,7 @@ class Examples(unittest.TestCase):
             tree = {"material": {word: value for word, value in tree.items() if word != "source"}}
         program = "impact" if {"particle", "spheres", "wall"} & set(tree) else "ucs"
         for name in flat(tree):
-            name = re.sub(r"^material\.at\.(?!confinement)", "material.", name)
+            name = re.sub(r"^material\.(at\.(?!confinement)|group\.(?!group))", "material.", name)
             name = re.sub(r"^materials\.\w+", "materials", name)
             self.assertTrue(name in keys_of(program), f"no key {name}")
 
