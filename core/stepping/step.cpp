@@ -199,10 +199,10 @@ void let_loose_drift(World& w) {
   let_loose_drift(w.confinement, w.particles, w.partition, {impedance, w.platens.rough, w.dt, w.step});
 }
 
-void account_energies(World& w) {
-  if (!w.ledger.enabled) return;
+OuterWorks account_outside(World& w) {
+  if (!w.ledger.enabled) return {};
   const Lap lap(w.phases, Phase::ledger);
-  account_motion(w);
+  return works_from_outside(w);
 }
 
 void move_platens(World& w) {
@@ -210,18 +210,23 @@ void move_platens(World& w) {
   drive_platens(w.platens, w.particles, w.partition, w.first_top, w.end_walls.push, w.dt);
 }
 
-void integrate(World& w) {
+void integrate(World& w, const OuterWorks& outer) {
   const Lap lap(w.phases, Phase::integrate);
   ParticleTable& p = w.particles;
   const Motion motion = motion_of(w);
   const GlobalDamping& damping = w.options.global_damping;
   const Rows free = w.partition.owned(0, p.free), lower = w.partition.owned(p.free, w.first_top),
              upper = w.partition.owned(w.first_top, p.size);
-  for_rows(free.last - free.first, w.options.threads, [&](std::size_t first, std::size_t last) {
-    w.integrate_free(motion, free.first + first, free.first + last, w.dt, damping);
-  });
+  StepWork work;
+  if (w.ledger.enabled)
+    work = integrate_and_book(w, motion);
+  else
+    for_rows(free.last - free.first, w.options.threads, [&](std::size_t first, std::size_t last) {
+      w.integrate_free(motion, free.first + first, free.first + last, w.dt, damping);
+    });
   integrate_held(motion, lower.first, lower.last, w.dt, damping, {w.platens.velocity[0], !w.platens.rough});
   integrate_held(motion, upper.first, upper.last, w.dt, damping, {w.platens.velocity[1], !w.platens.rough});
+  if (w.ledger.enabled) enter_step(w, work, outer);
 }
 
 /// How particles have turned, where somebody wants to know.
@@ -249,8 +254,7 @@ void advance(World& w) {
   restrain_laterally(w);
   move_platens(w);
   let_loose_drift(w);
-  account_energies(w);
-  integrate(w);
+  integrate(w, account_outside(w));
   turn(w);
   start_halo_exchange(w);
   w.time += w.dt;

@@ -37,17 +37,6 @@ Braked braked_motion(const World& w, std::size_t row) {
   return b;
 }
 
-/// Work over the two half steps around the present forces, J, and the kinetic energy.
-struct StepWork : MotionWork {
-  double held_this = 0, held_next = 0;  ///< by platens
-  StepWork& operator+=(const StepWork& o) {
-    kinetic += o.kinetic, held_this += o.held_this, held_next += o.held_next;
-    motion_this += o.motion_this, motion_next += o.motion_next;
-    spin_this += o.spin_this, spin_next += o.spin_next;
-    return *this;
-  }
-};
-
 /// What the platen does to a row that it holds: it prescribes z, and x and y where it is rough.
 /// (B49)
 void add_platen(const World& w, std::size_t row, const Vec3& after, StepWork& s) {
@@ -98,14 +87,6 @@ double normal_damage(const World& w) {
 }
 
 /// Of forces from outside on listed rows.
-struct OuterWork {
-  double over_this = 0, over_next = 0;  ///< J
-  OuterWork& operator+=(const OuterWork& o) {
-    over_this += o.over_this, over_next += o.over_next;
-    return *this;
-  }
-};
-
 /// @param force  of the place in the list, N
 template <class Force>
 OuterWork work_of_listed(const World& w, std::span<const Row> rows, const Force& force) {
@@ -131,7 +112,7 @@ Losses losses_of_all(const World& w) {
 /// The books begin at the forces of the first step: there was no step before it to end with them.
 void begin_ledger(World& w, const StepWork& work) {
   EnergyLedger& ledger = w.ledger;
-  ledger.start = work.kinetic + stored_energy(w);
+  ledger.start = work.kinetic + stored_energy(w, w.dt);
   ledger.platens.add(0.0, work.held_next);
   ledger.damped_motion.add(0.0, work.motion_next);
   ledger.damped_spin.add(0.0, work.spin_next);
@@ -141,39 +122,43 @@ void begin_ledger(World& w, const StepWork& work) {
 
 }  // namespace
 
-void account_motion(World& w) {
-  EnergyLedger& ledger = w.ledger;
-  if (!ledger.enabled) return;
+OuterWorks works_from_outside(const World& w) {
+  OuterWorks outer;
+  const std::vector<Row>& near = w.end_walls.rows;
+  if (!near.empty())
+    outer.walls += work_of_listed(w, near, [&](std::size_t k) {
+      return Vec3{0.0, 0.0, w.end_walls.force[k]};
+    });
+  if (!w.tool.rows.empty())
+    outer.walls += work_of_listed(w, w.tool.rows, [&](std::size_t k) { return w.tool.force[k]; });
+  const Confinement& c = w.confinement;
+  if (!c.rigid && c.pressure != 0.0) {
+    outer.pressure += work_of_listed(w, c.rows, [&](std::size_t k) { return c.force[k]; });
+    outer.pressure += work_of_listed(w, c.flying, [&](std::size_t k) { return c.brake[k]; });
+  }
+  return outer;
+}
+
+StepWork integrate_and_book(World& w, const Motion& motion) {
   std::vector<StepWork> blocks;
-  const Motion motion = motion_of(w);
-  const StepWork work =
-      sum_particle_ranges(w.partition, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
+  return sum_particle_ranges(
+      w.partition, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
         const std::size_t free = std::clamp(w.particles.free, first, last);
-        StepWork sum{w.work_of_free(motion, first, free, w.dt, w.options.global_damping)};
+        StepWork sum{w.integrate_booked(motion, first, free, w.dt, w.options.global_damping)};
         for (std::size_t row = free; row < last; ++row) sum += work_on_held(w, row);
         return sum;
       });
+}
+
+void enter_step(World& w, const StepWork& work, const OuterWorks& outer) {
+  EnergyLedger& ledger = w.ledger;
   ledger.kinetic = work.kinetic;
   if (w.step == 0) return begin_ledger(w, work);
   ledger.platens.add(work.held_this, work.held_next);
   ledger.damped_motion.add(work.motion_this, work.motion_next);
   ledger.damped_spin.add(work.spin_this, work.spin_next);
-  const std::vector<Row>& near = w.end_walls.rows;
-  const OuterWork behind = near.empty() ? OuterWork{} : work_of_listed(w, near, [&](std::size_t k) {
-    return Vec3{0.0, 0.0, w.end_walls.force[k]};
-  });
-  OuterWork walls = behind;
-  if (!w.tool.rows.empty())
-    walls += work_of_listed(w, w.tool.rows, [&](std::size_t k) { return w.tool.force[k]; });
-  ledger.walls.add(walls.over_this, walls.over_next);
-  const Confinement& c = w.confinement;
-  if (c.rigid) return;
-  OuterWork fluid;
-  if (c.pressure != 0.0) {
-    fluid += work_of_listed(w, c.rows, [&](std::size_t k) { return c.force[k]; });
-    fluid += work_of_listed(w, c.flying, [&](std::size_t k) { return c.brake[k]; });
-  }
-  ledger.pressure.add(fluid.over_this, fluid.over_next);
+  ledger.walls.add(outer.walls.over_this, outer.walls.over_next);
+  if (!w.confinement.rigid) ledger.pressure.add(outer.pressure.over_this, outer.pressure.over_next);
 }
 
 EnergyBalance energy_balance(const World& w) {

@@ -116,7 +116,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   plan_bonds(w);
   w.bond_pass = bond_pass_for(w.laws.front(), w.features, options.instruction_set, kind);
   w.integrate_free = integrate_free_for(options.instruction_set);
-  w.work_of_free = work_of_free_for(options.instruction_set);
+  w.integrate_booked = integrate_booked_for(options.instruction_set);
   w.undamaged_energy = undamaged_energy_for(options.instruction_set);
   w.confinement.current = options.current_surface;
   w.confinement.impedance = std::sqrt(material.young_modulus * material.density);

@@ -66,7 +66,7 @@ struct World {
   MassScaling mass_scaling;
   BondPass bond_pass = nullptr;
   IntegrateFree integrate_free = nullptr;
-  WorkOfFree work_of_free = nullptr;
+  IntegrateBooked integrate_booked = nullptr;
   UndamagedEnergy undamaged_energy = nullptr;
   Phases phases;
 };

@@ -125,6 +125,16 @@ template <Features features, class Bonds>
     }
 }
 
+/// Whether springs store all that a batch takes up in this step: where nothing is damaged and
+/// nothing yields, (B53) is zero but for round-off, whatever the pair's turn.
+template <Features features>
+[[gnu::always_inline]] inline bool loses_nothing_but_damping(const BondHistory<Lanes>& before,
+                                                             const BondHistory<Lanes>& h) {
+  if (features.unloading || is_damaged<features>(h)) return false;
+  if constexpr (features.plasticity) return !any(h.plastic_stretch != before.plastic_stretch);
+  return true;
+}
+
 /// Losses of a batch, added to those of its block; forces that do not follow from the state are
 /// kept for the next step.
 template <Features features, class Law, class Bonds>
@@ -133,9 +143,19 @@ template <Features features, class Law, class Bonds>
                                                const BondHistory<Lanes>& before, const BondHistory<Lanes>& h,
                                                const BondAction<Lanes>& action, const Bonds& bonds,
                                                std::size_t b, BondLosses<Lanes>& sum) {
+  const Lanes stretch = elongation(ends, pair, dt);
+  if (loses_nothing_but_damping<features>(before, h)) {
+    if constexpr (features.contact_damping) {
+      const Lanes viscous = action.along - action.spring;
+      sum.viscous +=
+          Lanes(0.5) * (bonds.template load<Column::viscous_force>(b) + viscous) * stretch;  // (B55)
+      bonds.template store<Column::viscous_force>(b, viscous);
+    }
+    return;
+  }
   LastForces<Lanes> last;
-  const BondLosses<Lanes> loss = losses_of_batch<features>(law, bond, pair, elongation(ends, pair, dt),
-                                                           before, h, action, bonds, b, last);
+  const BondLosses<Lanes> loss =
+      losses_of_batch<features>(law, bond, pair, stretch, before, h, action, bonds, b, last);
   if constexpr (features.contact_damping) bonds.template store<Column::viscous_force>(b, last.viscous);
   if (is_damaged<features>(h)) {
     bonds.template store<Column::spring_force>(b, last.spring);

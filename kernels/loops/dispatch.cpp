@@ -15,19 +15,19 @@ namespace breccia {
 namespace x86_64 {
 extern const std::array<BondPass, kernel_list.size()> passes;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
-MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+MotionWork integrate_booked(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
 }  // namespace x86_64
 namespace x86_64_v3 {
 extern const std::array<BondPass, kernel_list.size()> passes;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
-MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+MotionWork integrate_booked(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
 }  // namespace x86_64_v3
 namespace x86_64_v4 {
 extern const std::array<BondPass, kernel_list.size()> passes;
 void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
-MotionWork work_of_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+MotionWork integrate_booked(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
 double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
 }  // namespace x86_64_v4
 
@@ -87,8 +87,9 @@ IntegrateFree integrate_free_for(InstructionSet set) {
                                   x86_64_v4::integrate_free);
 }
 
-WorkOfFree work_of_free_for(InstructionSet set) {
-  return built_for<WorkOfFree>(set, x86_64::work_of_free, x86_64_v3::work_of_free, x86_64_v4::work_of_free);
+IntegrateBooked integrate_booked_for(InstructionSet set) {
+  return built_for<IntegrateBooked>(set, x86_64::integrate_booked, x86_64_v3::integrate_booked,
+                                    x86_64_v4::integrate_booked);
 }
 
 UndamagedEnergy undamaged_energy_for(InstructionSet set) {

@@ -39,16 +39,16 @@ using IntegrateFree = void (*)(const Motion& m, std::size_t first, std::size_t l
                                const GlobalDamping& damping);
 IntegrateFree integrate_free_for(InstructionSet set);
 
-/// J, of the kicks to come: kinetic energy between the velocities before and after them, and what
-/// global damping takes over the half steps before and after (B48) (B56).
+/// J, of kicks: kinetic energy between the velocities before and after them, and what global damping
+/// takes over the half steps before and after (B48) (B56).
 struct MotionWork {
   double kinetic = 0, motion_this = 0, motion_next = 0, spin_this = 0, spin_next = 0;
 };
 
-/// The same rows, before they are kicked; nothing changes.
-using WorkOfFree = MotionWork (*)(const Motion& m, std::size_t first, std::size_t last, double dt,
-                                  const GlobalDamping& damping);
-WorkOfFree work_of_free_for(InstructionSet set);
+/// The same, and what the kicks did.
+using IntegrateBooked = MotionWork (*)(const Motion& m, std::size_t first, std::size_t last, double dt,
+                                       const GlobalDamping& damping);
+IntegrateBooked integrate_booked_for(InstructionSet set);
 
 /// Motion that a body's rows share: z is prescribed; x and y too, unless they are free. (B64)
 struct HeldMotion {

@@ -51,11 +51,31 @@ template <bool spins, bool viscous>
   return k;
 }
 
-template <bool spins, bool viscous>
-void kick_and_drift(const Motion& m, std::size_t first, std::size_t last, double dt,
-                    const GlobalDamping& damping) {
+/// Sums of what kicks do.
+struct Books {
+  Two twice_kinetic{}, held_this{}, held_next{};
+
+  void add(const Kicked& k) {
+    const Two across = products(k.velocity, k.new_velocity, k.spin, k.new_spin);
+    twice_kinetic += k.inertia * across;  // (B48)
+    // (B56)
+    held_this += k.held * k.speeds;
+    held_next += k.held * across;
+  }
+  MotionWork work(double dt) const {
+    const double half = 0.5 * dt;
+    return {0.5 * (twice_kinetic[0] + twice_kinetic[1]), half * held_this[0], half * held_next[0],
+            half * held_this[1], half * held_next[1]};
+  }
+};
+
+template <bool spins, bool viscous, bool booked>
+MotionWork kick_and_drift(const Motion& m, std::size_t first, std::size_t last, double dt,
+                          const GlobalDamping& damping) {
+  Books books;
   for (std::size_t row = first; row < last; ++row) {
     const Kicked k = kicked<spins, viscous>(m, row, dt, damping);
+    if constexpr (booked) books.add(k);
     four(m.velocity[row]) = k.new_velocity;
     four(m.position[row]) += dt * k.new_velocity;  // (P7)
     four(m.force[row]) = Four{};
@@ -64,46 +84,30 @@ void kick_and_drift(const Motion& m, std::size_t first, std::size_t last, double
       four(m.torque[row]) = Four{};
     }
   }
+  return books.work(dt);
 }
 
-template <bool spins, bool viscous>
-MotionWork work_of_kicks(const Motion& m, std::size_t first, std::size_t last, double dt,
-                         const GlobalDamping& damping) {
-  Two twice_kinetic{}, held_this{}, held_next{};
-  for (std::size_t row = first; row < last; ++row) {
-    const Kicked k = kicked<spins, viscous>(m, row, dt, damping);
-    const Two across = products(k.velocity, k.new_velocity, k.spin, k.new_spin);
-    twice_kinetic += k.inertia * across;  // (B48)
-    // (B56)
-    held_this += k.held * k.speeds;
-    held_next += k.held * across;
-  }
-  const double half = 0.5 * dt;
-  return {0.5 * (twice_kinetic[0] + twice_kinetic[1]), half * held_this[0], half * held_next[0],
-          half * held_this[1], half * held_next[1]};
+template <bool booked>
+MotionWork integrate_rows(const Motion& m, std::size_t first, std::size_t last, double dt,
+                          const GlobalDamping& damping) {
+  if (!m.spin.empty() && m.spins)
+    return damping.viscous ? kick_and_drift<true, true, booked>(m, first, last, dt, damping)
+                           : kick_and_drift<true, false, booked>(m, first, last, dt, damping);
+  for (std::size_t row = first; row < last && !m.torque.empty(); ++row) four(m.torque[row]) = Four{};
+  return damping.viscous ? kick_and_drift<false, true, booked>(m, first, last, dt, damping)
+                         : kick_and_drift<false, false, booked>(m, first, last, dt, damping);
 }
 
 }  // namespace
 
 void integrate_free(const Motion& m, std::size_t first, std::size_t last, double dt,
                     const GlobalDamping& damping) {
-  if (!m.spin.empty() && m.spins) {
-    damping.viscous ? kick_and_drift<true, true>(m, first, last, dt, damping)
-                    : kick_and_drift<true, false>(m, first, last, dt, damping);
-    return;
-  }
-  damping.viscous ? kick_and_drift<false, true>(m, first, last, dt, damping)
-                  : kick_and_drift<false, false>(m, first, last, dt, damping);
-  for (std::size_t row = first; row < last && !m.torque.empty(); ++row) four(m.torque[row]) = Four{};
+  integrate_rows<false>(m, first, last, dt, damping);
 }
 
-MotionWork work_of_free(const Motion& m, std::size_t first, std::size_t last, double dt,
-                        const GlobalDamping& damping) {
-  if (!m.spin.empty() && m.spins)
-    return damping.viscous ? work_of_kicks<true, true>(m, first, last, dt, damping)
-                           : work_of_kicks<true, false>(m, first, last, dt, damping);
-  return damping.viscous ? work_of_kicks<false, true>(m, first, last, dt, damping)
-                         : work_of_kicks<false, false>(m, first, last, dt, damping);
+MotionWork integrate_booked(const Motion& m, std::size_t first, std::size_t last, double dt,
+                            const GlobalDamping& damping) {
+  return integrate_rows<true>(m, first, last, dt, damping);
 }
 
 }  // namespace breccia::BRECCIA_ISA
