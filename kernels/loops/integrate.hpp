@@ -39,8 +39,8 @@ using IntegrateFree = void (*)(const Motion& m, std::size_t first, std::size_t l
                                const GlobalDamping& damping);
 IntegrateFree integrate_free_for(InstructionSet set);
 
-/// J, of kicks: kinetic energy between the velocities before and after them, and what global damping
-/// takes over the half steps before and after (B48) (B56).
+/// J, of kicks: kinetic energy between the velocities before and after them, and what global
+/// damping takes over the half steps before and after (B48) (B56).
 struct MotionWork {
   double kinetic = 0, motion_this = 0, motion_next = 0, spin_this = 0, spin_next = 0;
 };
