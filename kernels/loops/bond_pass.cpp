@@ -51,9 +51,17 @@ private:
   }
 };
 
+// Instrumented by a sanitizer, a loop with all of its law in one function takes many minutes to
+// compile.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define BRECCIA_FLATTEN
+#else
+#define BRECCIA_FLATTEN [[gnu::flatten]]
+#endif
+
 template <std::size_t k>
-[[gnu::flatten]] void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first,
-                                std::size_t last, const Scatter& to, BreakNotes* notes) {
+BRECCIA_FLATTEN void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first,
+                               std::size_t last, const Scatter& to, BreakNotes* notes) {
   constexpr KernelKind kernel = kernel_list[k];
   using Law = LawOfKernel<k>;
   const auto run = [&](const auto& bonds) {
