@@ -192,24 +192,14 @@ struct Waiting {
   Waiting(const Scatter& scatter, const ForceBuffer& loads)
       : to(scatter),
         block(loads),
-        moments{scatter.torque.data(), scatter.torque.size(), scatter.force.stride()},
+        moments(rows_of_moments(scatter)),
         adds(scatter.mode == ScatterMode::own && (!features.rotation || !scatter.torque.empty())) {}
 
   template <std::size_t quarter>
   [[gnu::always_inline]] inline void add() const {
     if (!any) return;
-    for (std::size_t k = quarter * width / 4; k < (quarter + 1) * width / 4; ++k) {
-      const Index lo = to.to_lo[bond + k], hi = to.to_hi[bond + k];
-      const Four& force = four(block.load[place + k].force);
-      four(to.force[lo]) += force;
-      four(to.force[hi]) += -force;  // (P3) (P18)
-      if constexpr (features.rotation) {
-        const Four& moment = four(block.load[place + k].moment);
-        const double offset = to.arm_offset[bond + k];
-        four(moments[lo]) += (0.5 + offset) * moment;  // (P4) (B3)
-        four(moments[hi]) += (0.5 - offset) * moment;
-      }
-    }
+    for (std::size_t k = quarter * width / 4; k < (quarter + 1) * width / 4; ++k)
+      add_bond<features.rotation>(to, moments, block.load[place + k], bond + k, PlainAdd{});
   }
   [[gnu::always_inline]] inline void follow(std::size_t b, std::size_t k) { bond = b, place = k, any = adds; }
   void finish() const { add<0>(), add<1>(), add<2>(), add<3>(); }

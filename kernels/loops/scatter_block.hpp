@@ -33,21 +33,31 @@ struct AtomicAdd {
   }
 };
 
+/// The rows of moments, as far apart as those of forces; none where nothing spins.
+inline Strided<Vec3> rows_of_moments(const Scatter& to) {
+  return {to.torque.data(), to.torque.size(), to.force.stride()};
+}
+
+/// Adds the load of one bond to both its ends.
+template <bool torques, class Add>
+[[gnu::always_inline]] inline void add_bond(const Scatter& to, const Strided<Vec3>& moments,
+                                            const BondLoad& load, std::size_t bond, const Add& add) {
+  const Index lo = to.to_lo[bond], hi = to.to_hi[bond];
+  const Four &force = four(load.force), &moment = four(load.moment);
+  add(to.force, lo, force);
+  add(to.force, hi, -force);  // (P3) (P18)
+  if constexpr (torques) {
+    const double offset = to.arm_offset[bond];
+    add(moments, lo, (0.5 + offset) * moment);  // (P4) (B3)
+    add(moments, hi, (0.5 - offset) * moment);
+  }
+}
+
 template <bool torques, class Add>
 [[gnu::always_inline]] inline void add_block(const Scatter& to, const ForceBuffer& block, std::size_t first,
                                              std::size_t count, const Add& add) {
-  const Strided<Vec3> forces = to.force, moments{to.torque.data(), to.torque.size(), to.force.stride()};
-  for (std::size_t k = 0; k < count; ++k) {
-    const Index lo = to.to_lo[first + k], hi = to.to_hi[first + k];
-    const Four &force = four(block.load[k].force), &moment = four(block.load[k].moment);
-    add(forces, lo, force);
-    add(forces, hi, -force);  // (P3) (P18)
-    if constexpr (torques) {
-      const double offset = to.arm_offset[first + k];
-      add(moments, lo, (0.5 + offset) * moment);  // (P4) (B3)
-      add(moments, hi, (0.5 - offset) * moment);
-    }
-  }
+  const Strided<Vec3> moments = rows_of_moments(to);
+  for (std::size_t k = 0; k < count; ++k) add_bond<torques>(to, moments, block.load[k], first + k, add);
 }
 
 inline void keep_block(const Scatter& to, const ForceBuffer& block, std::size_t first, std::size_t count) {
