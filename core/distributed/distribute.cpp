@@ -4,6 +4,7 @@
 #include "core/ranks/pairs_of_rank.hpp"
 #include "core/world/loop_views.hpp"
 #include "core/world/scatter_plans.hpp"
+#include "core/world/single_precision.hpp"
 #include "core/world/stable_step.hpp"
 
 namespace breccia {
@@ -14,8 +15,8 @@ World distribute(World all, const Ranks& ranks) {
   w.partition = partition_of_rank(whole->particles.size, whole->bonds, ranks);
   const PairsOfRank bonds = pairs_of_rank(w.partition, whole->bonds);
   w.bonds = part_of_bonds(whole->bonds, bonds);
-  if (w.options.precision == Precision::mixed) w.single_bonds = single_bonds(w.bonds);
   plan_bonds(w);
+  fill_single(w);
   w.partition.interface_blocks = interface_blocks_of(w.partition, w.bonds);
   w.cracks = make_crack_record(w.cracks.enabled, w.options.threads, w.bonds.padded);
   if (w.ledger.enabled) {
@@ -36,7 +37,7 @@ World distribute(World all, const Ranks& ranks) {
   plan_contacts(w);
   build_halo(w);
   if (ranks.is_root()) {
-    whole->single_bonds = {};  // its table of bonds is brought up to date from those of the ranks
+    forget_blocks(whole->single);  // its tables are brought up to date from those of the ranks
     w.replica = whole;
   }
   return w;

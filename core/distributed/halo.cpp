@@ -1,6 +1,7 @@
 #include "core/distributed/halo.hpp"
 
 #include "core/ranks/pairs_of_rank.hpp"
+#include "core/world/single_precision.hpp"
 
 namespace breccia {
 namespace {
@@ -65,6 +66,7 @@ void finish_halo_exchange(World& w) {
       if (spins) p.torque[row] = {};
     }
   }
+  record_ghosts(w);
 }
 
 }  // namespace breccia

@@ -65,6 +65,7 @@ struct RunSummary {
   std::uint64_t broken_shear = 0;
   std::optional<double> localisation;  ///< share of the volume that holds 90 % of the equivalent strain
   std::uint64_t contact_searches = 0;  ///< lists of contacts that were made
+  std::optional<double> length_quantum_m, force_quantum_N;  ///< in single precision, at the end of the run
   std::uint64_t steps = 0;
   double time_step_s = 0;         ///< at the start
   double lowest_time_step_s = 0;  ///< the run's last: a step is never raised again

@@ -18,6 +18,11 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("critical_dt", w.critical_dt);
   visit("phases", w.phases.seconds);
 
+  visit("single_force", w.single.quanta.force);
+  visit("single_events", w.single.events);
+  visit("single_renewals", w.single.renewals);
+  visit("single_coarsenings", w.single.coarsenings);
+
   visit("platens_servo", w.platens.servo);
   visit("platens_pressure", w.platens.pressure);
   visit("platens_velocity", w.platens.velocity);

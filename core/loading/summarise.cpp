@@ -302,6 +302,10 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
   run.broken_shear = broken.shear;
   run.localisation = localisation(w);
   run.contact_searches = w.neighbour_list.rebuilds;
+  if (w.options.precision == Precision::single) {
+    run.length_quantum_m = w.single.quanta.length;
+    run.force_quantum_N = w.single.quanta.force;
+  }
   run.steps = w.step;
   run.time_step_s = w.step_monitor.first_dt;
   run.lowest_time_step_s = w.dt;

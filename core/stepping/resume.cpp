@@ -8,6 +8,7 @@
 #include "core/tables/row_order.hpp"
 #include "core/world/loop_views.hpp"
 #include "core/world/scatter_plans.hpp"
+#include "core/world/single_precision.hpp"
 #include "core/world/stable_step.hpp"
 
 namespace breccia {
@@ -51,7 +52,7 @@ std::vector<Row> list_contacts(World& w, std::span<const Gid> lo, std::span<cons
 
 void restore(World& w) {
   set_dashpots(w);
-  if (w.options.precision == Precision::mixed) w.single_bonds = single_bonds(w.bonds);
+  fill_single(w);
   plan_contacts(w);
 }
 

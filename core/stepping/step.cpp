@@ -8,10 +8,12 @@
 #include "core/distributed/distribute.hpp"
 #include "core/distributed/gather.hpp"
 #include "core/distributed/halo.hpp"
+#include "core/stepping/look_at_single.hpp"
 #include "core/world/cement.hpp"
 #include "core/world/energy_accounting.hpp"
 #include "core/world/loop_views.hpp"
 #include "core/world/scatter_plans.hpp"
+#include "core/world/single_precision.hpp"
 #include "core/world/stable_step.hpp"
 #include "kernels/loops/contact_pass.hpp"
 #include "kernels/loops/rolling_pass.hpp"
@@ -53,10 +55,10 @@ void confine(World& w) {
 
 /// The record of cracks looks at the bonds that have just broken.
 void sync_broken(World& w) {
-  if (w.single_bonds.empty()) return;
+  if (w.single.empty()) return;
   for (const BreakNotes& notes : w.cracks.notes)
     for (const BreakEvent& broken : notes.room.first(std::min(notes.count, notes.room.size())))
-      history_to_double(w.single_bonds, broken.bond, broken.bond + 1, w.bonds);
+      history_to_table(w.single, broken.bond, broken.bond + 1, w.bonds);
 }
 
 /// Calls pass(first, last) for the bonds of a range: all of them, or of several ranks the runs of
@@ -78,20 +80,28 @@ void for_blocks(const World& w, int range, bool reaching, const Pass& pass) {
   }
 }
 
+/// Calls pass(range, first, last, notes) for all bonds of this rank, range by range.
+template <class Pass>
+void for_bonds(World& w, bool reaching, const Pass& pass) {
+  // copies, which lie behind the blocks of owned bonds, break on the rank that owns them
+  const std::size_t owned = ForceBuffer::capacity * force_blocks(w.bonds.size);
+  for_ranges(w.bond_plan.ranges, [&](int range) {
+    for_blocks(w, range, reaching, [&](std::size_t first, std::size_t last) {
+      if (first < owned) pass(range, first, std::min(last, owned), notes_of(w.cracks, range));
+      if (last > owned) pass(range, std::max(first, owned), last, nullptr);
+    });
+  });
+}
+
 void pass_over_bonds(World& w, bool reaching) {
   const Lap lap(w.phases, Phase::bonds);
   BondTable& b = w.bonds;
+  if (!w.single.empty()) return pass_in_single(w, [&](const auto& pass) { for_bonds(w, reaching, pass); });
   const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, b.arm_offset, w.particles);
   const BondPassIn in = bond_pass_in(w);
   const BondPassHistory history = bond_pass_history(w);
-  // copies, which lie behind the blocks of owned bonds, break on the rank that owns them
-  const std::size_t owned = ForceBuffer::capacity * force_blocks(b.size);
-  for_ranges(w.bond_plan.ranges, [&](int range) {
-    for_blocks(w, range, reaching, [&](std::size_t first, std::size_t last) {
-      if (first < owned)
-        w.bond_pass(in, history, first, std::min(last, owned), to, notes_of(w.cracks, range));
-      if (last > owned) w.bond_pass(in, history, std::max(first, owned), last, to, nullptr);
-    });
+  for_bonds(w, reaching, [&](int, std::size_t first, std::size_t last, BreakNotes* notes) {
+    w.bond_pass(in, history, first, last, to, notes);
   });
 }
 
@@ -143,9 +153,13 @@ void roll_contacts(World& w) {
 }
 
 void bond_forces(World& w) {
+  // a bond whose two ends get new anchors gets them at once
+  if (!w.single.moved_far.empty()) finish_halo_exchange(w);
+  renew_far(w);
   pass_over_bonds(w, false);
   if (!w.partition.ranks.alone()) {
     finish_halo_exchange(w);
+    renew_far(w);
     pass_over_bonds(w, true);
   }
   turn_bonds(w);
@@ -175,6 +189,7 @@ void contact_forces(World& w) {
 
 void gather_bond_forces(World& w) {
   const Lap lap(w.phases, Phase::gather);
+  if (!w.single.empty()) return collect_single(w);
   collect(w.bond_plan, w.particles, w.partition.owned(), w.options.threads);
 }
 
@@ -244,6 +259,7 @@ void turn(World& w) {
 }  // namespace
 
 void advance(World& w) {
+  look_at_single(w);
   search_if_due(w);
   confine(w);
   bond_forces(w);
@@ -255,6 +271,7 @@ void advance(World& w) {
   move_platens(w);
   let_loose_drift(w);
   integrate(w, account_outside(w));
+  record_motion(w);
   turn(w);
   start_halo_exchange(w);
   w.time += w.dt;

@@ -52,10 +52,10 @@ inline const Column<double>& strength_areas(const BondTable& bonds) {
 }
 
 /// The columns as the pass over bonds takes them.
-inline BondConstantColumns<double> constant_columns(const BondTable& b) {
+inline BondConstantColumns constant_columns(const BondTable& b) {
   return {b.arm_offset, b.area, strength_areas(b), b.stiffness, b.damping};
 }
-inline BondHistoryColumns<double> history_columns(BondTable& b) {
+inline BondHistoryColumns history_columns(BondTable& b) {
   return {b.shear_x, b.shear_y, b.shear_z, b.plastic_stretch, b.damage_normal, b.damage_shear};
 }
 

@@ -42,6 +42,8 @@ std::string_view name_of(Need need) {
       return "rolling friction";
     case Need::several:
       return "several materials";
+    case Need::single:
+      return "single precision";
     case Need::hertz:
       return "Hertz contacts";
     case Need::orientation:

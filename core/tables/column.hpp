@@ -31,7 +31,8 @@ enum class Need {
   orientation,
   rolling,
   several,
-  hertz
+  hertz,
+  single
 };
 
 struct ColumnInfo {

@@ -19,6 +19,8 @@ namespace breccia {
   COLUMN(double, mass,               "kg",     reference, always,   "density times volume, and more where masses are scaled")  \
   COLUMN(Vec3,   reference_position, "m",      reference, always,   "centre when the bonds were made")                \
   COLUMN(Vec3,   orientation,        "rad",    state,     orientation, "rotation since the start: along the axis, as long as the angle") \
+  COLUMN(Vec3,   anchor,             "m",      state,     single,   "in single precision, place that displacements count from, less the origin of all") \
+  COLUMN(Vec3,   last_move,          "m",      state,     single,   "in single precision, displacement of the last step, as the bonds saw it") \
   COLUMN(Vec3,   stress_normal,      "Pa",     derived,   stress,   "xx, yy, zz of the mean stress in the particle's share of the volume, tension positive") \
   COLUMN(Vec3,   stress_shear,       "Pa",     derived,   stress,   "yz, zx, xy of the same")                          \
   COLUMN(Vec3,   strain_normal,      "1",      derived,   stress,   "xx, yy, zz of the strain of the particle's neighbourhood, elongation positive") \

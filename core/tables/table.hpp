@@ -31,6 +31,7 @@ constexpr bool is_needed(Need need, const Features& features) {
     case Need::orientation:
     case Need::rolling:
     case Need::hertz:
+    case Need::single:
       return false;  // made by the one who fills it
   }
   return true;

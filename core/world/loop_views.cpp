@@ -8,8 +8,7 @@ BondPassIn bond_pass_in(const World& w) {
   const ParticleTable& p = w.particles;
   const BondTable& b = w.bonds;
   return {w.dt,     w.laws,   p.position,    p.velocity,          p.spin,
-          b.row_lo, b.row_hi, b.rest_length, constant_columns(b), w.single_bonds.constants(),
-          b.law};
+          b.row_lo, b.row_hi, b.rest_length, constant_columns(b), b.law};
 }
 
 BondEnergyIn bond_energy_in(const World& w, double back) {
@@ -40,9 +39,45 @@ Motion motion_of(World& w) {
 
 BondPassHistory bond_pass_history(World& w) {
   BondTable& b = w.bonds;
-  return {history_columns(b),
-          w.single_bonds.history(),
-          {b.spring_force, b.viscous_force, b.shear_factor, w.ledger.bonds}};
+  return {history_columns(b), {b.spring_force, b.viscous_force, b.shear_factor, w.ledger.bonds}};
+}
+
+SinglePassIn single_pass_in(World& w) {
+  SingleStore& s = w.single;
+  const BondTable& b = w.bonds;
+  return {.laws = s.laws,
+          .law = b.law,
+          .bonds = s.bonds,
+          .rare = s.rare,
+          .ledger = s.ledger,
+          .damaged = s.damaged,
+          .losses = w.ledger.bonds,
+          .motion = s.motion,
+          .sums = s.sums,
+          .targets = {s.near, s.far, w.bond_plan.kind == ScatterKind::atomic && !s.near.empty()},
+          .row_lo = b.row_lo,
+          .row_hi = b.row_hi,
+          .length = s.quanta.length,
+          .force = s.quanta.force,
+          .force_limit = static_cast<float>(s.quanta.force_limit),
+          .own_strength_area = s.own_strength_area};
+}
+
+RecordedMotion recorded_motion(World& w) {
+  const ParticleTable& p = w.particles;
+  return {.position = p.position,
+          .velocity = p.velocity,
+          .spin = p.spin,
+          .anchor = p.anchor,
+          .radius = p.radius,
+          .records = w.single.motion,
+          .origin = w.single.quanta.origin,
+          .length = w.single.quanta.length};
+}
+
+CollectedSums collected_sums(World& w) {
+  ParticleTable& p = w.particles;
+  return {w.single.sums, p.force, p.torque, p.radius, w.single.quanta.force};
 }
 
 double inertia_factor(const World& w) {

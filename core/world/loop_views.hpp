@@ -8,6 +8,11 @@ namespace breccia {
 BondPassIn bond_pass_in(const World& world);
 BondPassHistory bond_pass_history(World& world);
 
+/// The same in single precision, and how its integers and the particles' doubles follow each other.
+SinglePassIn single_pass_in(World& world);
+RecordedMotion recorded_motion(World& world);
+CollectedSums collected_sums(World& world);
+
 /// What the energy of undamaged bonds reads; places as of `back` seconds ago.
 BondEnergyIn bond_energy_in(const World& world, double back);
 

@@ -8,6 +8,7 @@
 #include "core/bonding/law_of_material.hpp"
 #include "core/elastic/elastic_network.hpp"
 #include "core/world/scatter_plans.hpp"
+#include "core/world/single_precision.hpp"
 #include "core/world/stable_step.hpp"
 
 namespace breccia {
@@ -104,7 +105,6 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   set_masses(w.particles, materials, w.space);
   set_bond_constants(w);
   choose_step(w);
-  if (options.precision == Precision::mixed) w.single_bonds = single_bonds(w.bonds);
   w.platens = make_platens(assembly, w.particles, options.rough_platens, material.young_modulus);
   w.end_walls = make_end_walls(assembly, w.young, w.alpha);
   w.tool = make_tool(options.cutting, assembly, w.young, w.alpha);
@@ -114,7 +114,12 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
   w.neighbour_list.every = options.search_every;
   w.cracks = make_crack_record(options.cracks && w.features.breakage, options.threads, w.bonds.size);
   plan_bonds(w);
-  w.bond_pass = bond_pass_for(w.laws.front(), w.features, options.instruction_set, kind);
+  if (options.precision == Precision::single)
+    w.single_pass = single_pass_for(w.laws.front(), w.features, options.instruction_set);
+  else
+    w.bond_pass = bond_pass_for(w.laws.front(), w.features, options.instruction_set, kind);
+  w.refresh_records = refresh_records_for(options.instruction_set);
+  w.collect_sums = collect_sums_for(options.instruction_set);
   w.integrate_free = integrate_free_for(options.instruction_set);
   w.integrate_booked = integrate_booked_for(options.instruction_set);
   w.undamaged_energy = undamaged_energy_for(options.instruction_set);
@@ -128,6 +133,7 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
       column->assign(w.bonds.padded, 0.0);
     w.ledger = make_ledger(w.bonds.padded);
   }
+  start_single(w);
   return w;
 }
 

@@ -30,7 +30,7 @@ void set_bond_dashpots(World& w) {
   BondTable& b = w.bonds;
   if (b.damping.empty()) return;
   for (std::size_t k = 0; k < b.padded; ++k) b.damping[k] = bond_dashpot(w.dashpots, w.particles, b, k, w.dt);
-  if (!w.single_bonds.empty()) dashpots_to_single(b, w.single_bonds);
+  fit_step(w.single, w.particles, b, w.dt);
 }
 
 void set_contact_dashpots(World& w) {

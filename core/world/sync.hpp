@@ -1,10 +1,14 @@
-// Mixed precision keeps history as floats beside the table of bonds, which everybody else reads.
+// Single precision keeps history beside the tables, which everybody else reads.
 #pragma once
 #include "core/world/world.hpp"
 
 namespace breccia {
 
-/// Brings the table of bonds up to date, before anyone looks at it; in full precision it always is.
-inline void sync(World& world) { history_to_double(world.single_bonds, 0, world.bonds.padded, world.bonds); }
+/// Brings the tables up to date, before anyone looks at them; in double precision they always are.
+inline void sync(World& world) {
+  if (world.single.empty()) return;
+  history_to_table(world.single, 0, world.bonds.padded, world.bonds, world.options.threads);
+  moves_to_table(world.single, world.particles);
+}
 
 }  // namespace breccia

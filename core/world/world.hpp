@@ -16,7 +16,7 @@
 #include "core/ranks/partition.hpp"
 #include "core/ranks/scatter_plan.hpp"
 #include "core/tables/laws.hpp"
-#include "core/tables/mixed_precision.hpp"
+#include "core/tables/single_store.hpp"
 #include "core/world/crack_record.hpp"
 #include "core/world/energy_ledger.hpp"
 #include "core/world/options.hpp"
@@ -47,7 +47,7 @@ struct World {
   std::uint64_t step = 0;
   ParticleTable particles;
   BondTable bonds;
-  SingleBonds single_bonds;  ///< in mixed precision
+  SingleStore single;  ///< in single precision
   ContactTable contacts;
   std::size_t first_top = 0;
   Partition partition;  ///< of this rank
@@ -65,6 +65,9 @@ struct World {
   StepMonitor step_monitor;
   MassScaling mass_scaling;
   BondPass bond_pass = nullptr;
+  SinglePass single_pass = nullptr;
+  RefreshRecords refresh_records = nullptr;
+  CollectSums collect_sums = nullptr;
   IntegrateFree integrate_free = nullptr;
   IntegrateBooked integrate_booked = nullptr;
   UndamagedEnergy undamaged_energy = nullptr;

@@ -87,11 +87,11 @@ Features features_that_run(const Case& c, const Features& asked) {
     return built_features(law_of(m, paper_shear_ratio(m.poisson_ratio)), asked,
                           {c.precision, c.features.energy_ledger});
   } catch (const std::invalid_argument&) {
-    if (c.precision == Precision::mixed)
+    if (c.precision == Precision::single)
       fail<BadInput>(
-          "{}: run.precision \"mixed\" is built for material.law \"dempack\" without the criterion "
-          "\"coupled\"; leave run.precision out",
-          place_of(c, "run.precision"));
+          "{}: run.precision \"single\" is not built for material.law \"{}\"; take \"double\", or leave "
+          "run.precision out",
+          place_of(c, "run.precision"), m.law);
     fail<BadInput>("{}: material.law \"{}\" has no criterion \"coupled\"; leave material.criterion out",
                    place_of(c, "material.criterion"), m.law);
   }

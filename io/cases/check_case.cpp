@@ -341,8 +341,6 @@ void check_law(const CaseLaid& laid, const Given& law) { Checks{laid}.law(law.re
 void check_groups(const CaseLaid& laid) {
   const Case& c = laid.c;
   for (const GroupCase& group : c.groups) {
-    if (c.precision == Precision::mixed)
-      refuse(group.place, "material.group", "is not built for run.precision = \"mixed\"; leave one out");
     std::vector<const Material*> before{&c.materials.front()};
     for (const GroupCase& other : c.groups) before.push_back(&other.materials.front());
     for (const Material* other : before)

@@ -169,8 +169,9 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
       given != base.end() && given->second.reading.number > 0.0) {
     if (!c.features.rotation)
       refuse(given->second.place, given->first, "with features.rotation = false nothing rolls; leave it out");
-    if (c.precision == Precision::mixed)
-      refuse(given->second.place, given->first, "is not built for run.precision = \"mixed\"; leave one out");
+    if (c.precision == Precision::single)
+      refuse(given->second.place, given->first,
+             "resistance to rolling is not built for run.precision = \"single\"; leave one out");
   }
   if (const auto given = base.find("material.contact_law");
       given != base.end() && given->second.reading.word == "hertz-mindlin") {
@@ -181,9 +182,6 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
       refuse(given->second.place, given->first,
              "with features.new_contacts = false no surfaces meet; leave it out");
   }
-  for (const char* name : {"material.unloading_modulus", "material.yield_stress"})
-    if (const auto given = base.find(name); given != base.end() && c.precision == Precision::mixed)
-      refuse(given->second.place, given->first, "is not built for run.precision = \"mixed\"; leave one out");
   for (const char* name :
        {"material.shear_under_yield", "material.unloading_modulus", "material.yield_stress"})
     if (const auto given = base.find(name);

@@ -65,10 +65,14 @@ std::string explain(const World& w) {
   const std::string bond_columns = columns_of(w.bonds, bond_bytes);
   text += fmt::format("\n{} particles of {} bytes\n{}", w.particles.size, particle_bytes, particle_columns);
   text += fmt::format("\n{} bonds of {} bytes\n{}", w.bonds.size, bond_bytes, bond_columns);
-  if (!w.single_bonds.empty())
-    text +=
-        "\nmixed precision: the loop reads and writes its own copy of the bonds, 4 bytes for each 8 but "
-        "those of rest_length\n";
+  if (!w.single.empty())
+    text += fmt::format(
+        "\nsingle precision: the loop reads records of {} bytes a particle and {} bytes a bond of its own, "
+        "{} "
+        "more where it is damaged, and adds to sums of {} bytes a particle; a quantum of length is {:.3g} m, "
+        "one of force {:.3g} N\n",
+        sizeof(MotionRecord), sizeof(BondBlock) / bond_block, sizeof(RareBlock) / bond_block,
+        sizeof(IntegerSums), w.single.quanta.length, w.single.quanta.force);
   text += fmt::format("\nloops of a step, on {} thread{}\n", w.options.threads,
                       w.options.threads == 1 ? "" : "s");
   text += "  search       every 16 steps: has a particle used up the skin?\n";

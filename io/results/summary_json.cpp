@@ -51,6 +51,8 @@ void for_each_field(Run& run, Visit&& visit) {
   visit("broken_shear", run.broken_shear);
   visit("localisation", run.localisation);
   visit("contact_searches", run.contact_searches);
+  visit("length_quantum_m", run.length_quantum_m);
+  visit("force_quantum_N", run.force_quantum_N);
   visit("steps", run.steps);
   visit("time_step_s", run.time_step_s);
   visit("lowest_time_step_s", run.lowest_time_step_s);

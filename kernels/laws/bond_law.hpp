@@ -75,6 +75,15 @@ constexpr bool passes_moments = requires(Law law) {
   law.moment_factor;
 };
 
+/// The law where lengths count in `length` m and forces in `force` N, and areas so that stresses
+/// stay in Pa.
+template <class Law>
+inline Law in_units(Law law, double length, double) {
+  law.failure.softening_normal_length /= length;
+  law.failure.softening_shear_length /= length;
+  return law;
+}
+
 /// Largest tension and cohesion of a bond, N: strengths are stresses.
 template <class Law, class R>
 inline BondLimits<R> limits_of(const Law& law, const BondConstants<R>& bond) {

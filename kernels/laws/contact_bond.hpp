@@ -45,6 +45,11 @@ struct ContactBondLaw {
 // (B28)
 inline double stiffness_of(const ContactBondLaw& law, double, double) { return law.stiffness; }
 
+inline ContactBondLaw in_units(ContactBondLaw law, double, double force) {
+  law.normal_strength /= force, law.shear_strength /= force;
+  return law;
+}
+
 template <class R>
 inline BondLimits<R> limits_of(const ContactBondLaw& law, const BondConstants<R>&) {
   return {R(law.normal_strength), R(law.shear_strength)};  // (B28)

@@ -120,6 +120,15 @@ inline R pressed_energy(const DempackLaw& law, const BondConstants<R>& bond, con
   return select(curve, bond.area * length * envelope_energy(law, -u / length), line);
 }
 
+/// Whether a bond may yield in this step; false only where `yield` would leave it as it is,
+/// whatever the last bits say.
+/// @param elastic  m, stretch beyond the plastic one; of a bond that goes back as it came
+template <class R>
+inline auto may_yield(const DempackLaw& law, const BondConstants<R>& bond, const R&, const R& elastic) {
+  constexpr double nearly = 1.0 - 1e-4;
+  return -bond.stiffness * elastic > R(nearly * law.limit_stress[0]) * bond.area;
+}
+
 /// Puts a compressive trial above the envelope back onto it; the plastic stretch takes the rest
 /// (P52).
 /// @tparam elsewhere  bonds may go back on another line than k_n (B118)

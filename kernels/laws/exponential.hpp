@@ -61,6 +61,14 @@ inline R secant_ratio(const ExponentialLaw& law, const R& e) {
   return smaller(R(1.0), R(law.floor) + R(law.factor) * exponential(x));
 }
 
+/// Whether a bond may yield in this step; false only where `yield` would leave it as it is,
+/// whatever the last bits say.
+template <class R>
+inline auto may_yield(const ExponentialLaw& law, const BondConstants<R>& bond, const R& u, const R&) {
+  constexpr double nearly = 1.0 - 1e-4;
+  return -u > R(nearly * law.strain_limit) * strain_length(law.young, bond);
+}
+
 /// Puts a compressive trial above the envelope k_n L e_max + K2 L (e - e_max) back onto it. (B26)
 template <bool elsewhere, class R>
 inline bool yield(const ExponentialLaw& law, const BondConstants<R>& bond, const R& u, R& plastic) {

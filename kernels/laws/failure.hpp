@@ -84,6 +84,20 @@ inline R delta_shear(const Failure& failure, const R& length) {
   return larger(R(failure.softening_shear) + R(failure.softening_shear_length) / length, R(0.0));
 }
 
+/// Whether a bond without damage may fail in this step; false only where breakable_force would
+/// leave it as it is, whatever the last bits say.
+/// @param normal  N, tension positive
+/// @param shear2  N^2
+template <bool coupled, class R>
+inline auto may_fail(const Failure& failure, const BondLimits<R>& limits, const R& normal, const R& shear2) {
+  constexpr double nearly = 1.0 - 1e-5;
+  // coupled, pulled: a + b > 1 is b > 1 - a (B24)
+  const R loses = coupled ? R(limits.cohesion / limits.tension) : R(failure.friction_pulled);
+  const R strength = limits.cohesion - select(normal < R(0.0), R(failure.friction_pressed), loses) * normal;
+  return normal > limits.tension || !(strength >= R(0.0)) ||
+         shear2 > R(nearly * nearly) * strength * strength;
+}
+
 /// Tension, shear and friction of one bond. `h.shear` has been carried along and has had this
 /// step's k_s du added.
 /// @param young  Pa; with the area it gives the length that softening refers to

@@ -8,9 +8,9 @@ namespace breccia {
 /// docs/model.md, "Dempack law, shear".
 enum class Criterion : unsigned char { uncoupled, coupled, mohr_coulomb };
 
-/// How bonds are stored in the loop. Places, forces and sums are doubles always.
-/// mixed: parameters and history as floats, but for the rest length
-enum class Precision : unsigned char { full, mixed };
+/// What the loop over bonds computes in: doubles, or floats between integers that keep the
+/// particles' motion and their sums (docs/model.md, "Single precision").
+enum class Precision : unsigned char { full, single };
 
 /// What a loop does beside the law.
 struct LoopKind {

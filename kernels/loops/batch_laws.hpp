@@ -13,36 +13,46 @@
 namespace breccia::BRECCIA_ISA {
 namespace {
 
-[[gnu::always_inline]] inline auto damaged_lanes(const BondHistory<Lanes>& h) {
+template <class R>
+[[gnu::always_inline]] inline auto damaged_lanes(const BondHistory<R>& h) {
   return h.damage_normal > 0.0 || h.damage_shear > 0.0;
 }
 
-template <Features features>
-[[gnu::always_inline]] inline bool is_damaged(const BondHistory<Lanes>& h) {
+template <Features features, class R>
+[[gnu::always_inline]] inline bool is_damaged(const BondHistory<R>& h) {
   if constexpr (features.breakage)
     return any(damaged_lanes(h));
   else
     return false;
 }
 
+/// k_s, N/m.
+template <class Law, class R>
+[[gnu::always_inline]] inline R shear_stiffness_of(const Law& law, std::size_t, const R& stiffness) {
+  return R(law.shear_ratio) * stiffness;
+}
+
 /// What the bonds of a batch end the step with, under one law.
-template <Features features, class Law>
-[[gnu::always_inline]] inline BondAction<Lanes> act_on_batch(const Law& law, std::size_t,
-                                                             const BondConstants<Lanes>& bond,
-                                                             const Pair<Lanes>& pair, BondHistory<Lanes>& h) {
-  return bond_action<features>(law, bond, pair, h);
+/// @param rotated  the history of shear, turned with the pairs
+/// @param h        h.shear: the same with k_s du added
+template <Features features, class Law, class R>
+[[gnu::always_inline]] inline BondAction<R> act_on_batch(const Law& law, std::size_t,
+                                                         const BondConstants<R>& bond,
+                                                         const BondStrain<R>& strain, const Vec<R>& rotated,
+                                                         BondHistory<R>& h) {
+  return strained<features>(law, bond, strain, rotated, h);
 }
 
 /// Forces that a batch ended the step before with; of damaged bonds they do not follow from the
 /// state, and were kept.
-template <Features features, class Law, class Bonds>
-[[gnu::always_inline]] inline LastForces<Lanes> last_forces(const Law& law, const BondConstants<Lanes>& bond,
-                                                            const Pair<Lanes>& pair, const Lanes& stretch,
-                                                            const BondHistory<Lanes>& before,
-                                                            const Bonds& bonds, std::size_t b) {
-  Lanes viscous(0.0);
+template <Features features, class Law, class R, class Bonds>
+[[gnu::always_inline]] inline LastForces<R> last_forces(const Law& law, const BondConstants<R>& bond,
+                                                        const BondStrain<R>& strain, const R& stretch,
+                                                        const BondHistory<R>& before, const Bonds& bonds,
+                                                        std::size_t b) {
+  R viscous(0.0);
   if constexpr (features.contact_damping) viscous = bonds.template load<BondColumn::viscous_force>(b);
-  LastForces<Lanes> last = forces_before<features>(law, bond, pair, stretch, before, viscous);
+  LastForces<R> last = forces_before<features>(law, bond, strain, stretch, before, viscous);
   if (is_damaged<features>(before)) {
     // bond by bond: which others share a register changes with the processor and the number of
     // ranks
@@ -54,13 +64,15 @@ template <Features features, class Law, class Bonds>
 }
 
 /// Losses of a batch under one law; `last` becomes what it ends this step with.
-template <Features features, class Law, class Bonds>
-[[gnu::always_inline]] inline BondLosses<Lanes> losses_of_batch(
-    const Law& law, const BondConstants<Lanes>& bond, const Pair<Lanes>& pair, const Lanes& stretch,
-    const BondHistory<Lanes>& before, const BondHistory<Lanes>& h, const BondAction<Lanes>& action,
-    const Bonds& bonds, std::size_t b, LastForces<Lanes>& last) {
-  last = last_forces<features>(law, bond, pair, stretch, before, bonds, b);
-  return losses_of_step<features>(law, bond, pair, stretch, before, h, action, last);
+template <Features features, class Law, class R, class Bonds>
+[[gnu::always_inline]] inline BondLosses<R> losses_of_batch(const Law& law, const BondConstants<R>& bond,
+                                                            const BondStrain<R>& strain, const R& stretch,
+                                                            const BondHistory<R>& before,
+                                                            const BondHistory<R>& h,
+                                                            const BondAction<R>& action, const Bonds& bonds,
+                                                            std::size_t b, LastForces<R>& last) {
+  last = last_forces<features>(law, bond, strain, stretch, before, bonds, b);
+  return losses_of_step<features>(law, bond, strain, stretch, before, h, action, last);
 }
 
 template <class Law>
@@ -69,26 +81,26 @@ struct LawTable {
   std::span<const LawIndex> of_bond;
 
   /// Calls act(law, its lanes) for each law of a batch.
-  template <class Act>
+  template <class R, class Act>
   [[gnu::always_inline]] void for_each(std::size_t b, const Act& act) const {
-    const Lanes which([&](auto k) { return static_cast<double>(of_bond[b + k]); });
+    const R which([&](auto k) { return static_cast<typename R::value_type>(of_bond[b + k]); });
     for (std::size_t l = 0; l < laws.size(); ++l) {
-      const auto lanes = which == Lanes(static_cast<double>(l));
+      const auto lanes = which == R(static_cast<double>(l));
       if (any(lanes)) act(*std::get_if<Law>(&laws[l]), lanes);
     }
   }
 };
 
-template <class Mask>
-inline void take(const Mask& lanes, const BondHistory<Lanes>& from, BondHistory<Lanes>& to) {
+template <class Mask, class R>
+inline void take(const Mask& lanes, const BondHistory<R>& from, BondHistory<R>& to) {
   to.shear = select(lanes, from.shear, to.shear);
   to.plastic_stretch = select(lanes, from.plastic_stretch, to.plastic_stretch);
   to.damage_normal = select(lanes, from.damage_normal, to.damage_normal);
   to.damage_shear = select(lanes, from.damage_shear, to.damage_shear);
 }
 
-template <class Mask>
-inline void take(const Mask& lanes, const BondAction<Lanes>& from, BondAction<Lanes>& to) {
+template <class Mask, class R>
+inline void take(const Mask& lanes, const BondAction<R>& from, BondAction<R>& to) {
   to.spring = select(lanes, from.spring, to.spring);
   to.along = select(lanes, from.along, to.along);
   to.shear_factor = select(lanes, from.shear_factor, to.shear_factor);
@@ -99,8 +111,8 @@ inline void take(const Mask& lanes, const BondAction<Lanes>& from, BondAction<La
   to.yielded = select(lanes, from.yielded, to.yielded);
 }
 
-template <class Mask>
-inline void take(const Mask& lanes, const BondLosses<Lanes>& from, BondLosses<Lanes>& to) {
+template <class Mask, class R>
+inline void take(const Mask& lanes, const BondLosses<R>& from, BondLosses<R>& to) {
   to.plastic = select(lanes, from.plastic, to.plastic);
   to.viscous = select(lanes, from.viscous, to.viscous);
   to.damage = select(lanes, from.damage, to.damage);
@@ -108,38 +120,47 @@ inline void take(const Mask& lanes, const BondLosses<Lanes>& from, BondLosses<La
   to.failure = select(lanes, from.failure, to.failure);
 }
 
-template <class Mask>
-inline void take(const Mask& lanes, const LastForces<Lanes>& from, LastForces<Lanes>& to) {
+template <class Mask, class R>
+inline void take(const Mask& lanes, const LastForces<R>& from, LastForces<R>& to) {
   to.spring = select(lanes, from.spring, to.spring);
   to.viscous = select(lanes, from.viscous, to.viscous);
   to.shear_factor = select(lanes, from.shear_factor, to.shear_factor);
 }
 
-template <Features features, class Law>
-inline BondAction<Lanes> act_on_batch(const LawTable<Law>& table, std::size_t b,
-                                      const BondConstants<Lanes>& bond, const Pair<Lanes>& pair,
-                                      BondHistory<Lanes>& h) {
-  const BondHistory<Lanes> before = h;
-  BondAction<Lanes> action{};
-  table.for_each(b, [&](const Law& law, const auto& lanes) {
-    BondHistory<Lanes> after = before;
-    take(lanes, bond_action<features>(law, bond, pair, after), action);
+template <class Law, class R>
+inline R shear_stiffness_of(const LawTable<Law>& table, std::size_t b, const R& stiffness) {
+  R k_s(0.0);
+  table.template for_each<R>(b, [&](const Law& law, const auto& lanes) {
+    k_s = select(lanes, R(law.shear_ratio) * stiffness, k_s);
+  });
+  return k_s;
+}
+
+template <Features features, class Law, class R>
+inline BondAction<R> act_on_batch(const LawTable<Law>& table, std::size_t b, const BondConstants<R>& bond,
+                                  const BondStrain<R>& strain, const Vec<R>& rotated, BondHistory<R>& h) {
+  const BondHistory<R> before = h;
+  BondAction<R> action{};
+  table.template for_each<R>(b, [&](const Law& law, const auto& lanes) {
+    BondHistory<R> after = before;
+    take(lanes, strained<features>(law, bond, strain, rotated, after), action);
     take(lanes, after, h);
   });
   return action;
 }
 
-template <Features features, class Law, class Bonds>
-inline BondLosses<Lanes> losses_of_batch(const LawTable<Law>& table, const BondConstants<Lanes>& bond,
-                                         const Pair<Lanes>& pair, const Lanes& stretch,
-                                         const BondHistory<Lanes>& before, const BondHistory<Lanes>& h,
-                                         const BondAction<Lanes>& action, const Bonds& bonds, std::size_t b,
-                                         LastForces<Lanes>& last) {
-  BondLosses<Lanes> loss{};
+template <Features features, class Law, class R, class Bonds>
+inline BondLosses<R> losses_of_batch(const LawTable<Law>& table, const BondConstants<R>& bond,
+                                     const BondStrain<R>& strain, const R& stretch,
+                                     const BondHistory<R>& before, const BondHistory<R>& h,
+                                     const BondAction<R>& action, const Bonds& bonds, std::size_t b,
+                                     LastForces<R>& last) {
+  BondLosses<R> loss{};
   last = {};
-  table.for_each(b, [&](const Law& law, const auto& lanes) {
-    LastForces<Lanes> end;
-    take(lanes, losses_of_batch<features>(law, bond, pair, stretch, before, h, action, bonds, b, end), loss);
+  table.template for_each<R>(b, [&](const Law& law, const auto& lanes) {
+    LastForces<R> end;
+    take(lanes, losses_of_batch<features>(law, bond, strain, stretch, before, h, action, bonds, b, end),
+         loss);
     take(lanes, end, last);
   });
   return loss;

@@ -37,9 +37,9 @@ inline R damage_energy(const R& damage, const R& tension, const R& stiffness, co
 /// @param stretch  m, elongation of the step since
 /// @param before   the history as it was then
 template <Features features, class Law, class R>
-inline LastForces<R> forces_before(const Law& law, const BondConstants<R>& bond, const Pair<R>& pair,
+inline LastForces<R> forces_before(const Law& law, const BondConstants<R>& bond, const BondStrain<R>& strain,
                                    const R& stretch, const BondHistory<R>& before, const R& viscous) {
-  const R u = pair.distance - stretch - bond.rest_length;
+  const R u = strain.stretch - stretch;
   R elastic = u;
   if constexpr (features.plasticity) {
     elastic -= before.plastic_stretch;
@@ -67,7 +67,7 @@ inline R stored_along(const Law& law, const BondConstants<R>& bond, const R& u, 
 /// @param before   the history as it came into the step; h: as it left
 /// @param last     brought up to this step's end
 template <Features features, class Law, class R>
-inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond, const Pair<R>& pair,
+inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond, const BondStrain<R>& strain,
                                     const R& stretch, const BondHistory<R>& before, const BondHistory<R>& h,
                                     const BondAction<R>& action, LastForces<R>& last) {
   const R half(0.5), zero(0.0), one(1.0);
@@ -78,15 +78,17 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
 
   const R k_s = R(law.shear_ratio) * bond.stiffness;
   const R compliance = select(k_s > zero, half / k_s, zero);  // none of padding
-  const R shear_work = half * dot(last.shear_factor * action.rotated + action.shear, pair.slip);
-  const R shear_kept = compliance * (action.shear_factor * dot(h.shear, h.shear) -
-                                     last.shear_factor * dot(action.rotated, action.rotated));
+  const R shear_work = half * dot(last.shear_factor * action.rotated + action.shear, strain.slip);
+  // as a product of sum and difference: in floats the difference of two stored energies is noise
+  const R shear_kept =
+      compliance * ((action.shear_factor - last.shear_factor) * dot(h.shear, h.shear) +
+                    last.shear_factor * dot(h.shear - action.rotated, h.shear + action.rotated));
   R shear_loss = shear_work - shear_kept;  // (B53)
   R in_shear(0.0);                         // J, taken up by slip that is plastic
   if constexpr (features.plasticity) {
     loss.plastic = mean_spring * (h.plastic_stretch - before.plastic_stretch);  // (B51)
     if constexpr (features.unloading) {                                         // (B118)
-      const R u = pair.distance - bond.rest_length;
+      const R u = strain.stretch;
       const R kept = stored_along<features>(law, bond, u, h, action.spring) -
                      stored_along<features>(law, bond, u - stretch, before, last.spring);
       auto undamaged = u - h.plastic_stretch < zero || u - stretch - before.plastic_stretch < zero;
@@ -108,7 +110,7 @@ inline BondLosses<R> losses_of_step(const Law& law, const BondConstants<R>& bond
       return breaks;
     }();
     if (any(coupled_damage || breaks)) {
-      const R u = pair.distance - bond.rest_length;
+      const R u = strain.stretch;
       normal_loss = mean_spring * stretch - loss.plastic -
                     (stored_along<features>(law, bond, u, h, action.spring) -
                      stored_along<features>(law, bond, u - stretch, before, last.spring));

@@ -7,9 +7,8 @@
 #pragma once
 #include <algorithm>
 
+#include "kernels/loops/batch_history.hpp"
 #include "kernels/loops/batch_laws.hpp"
-#include "kernels/loops/bond_column.hpp"
-#include "kernels/loops/bond_ledger.hpp"
 #include "kernels/loops/bond_pass.hpp"
 #include "kernels/loops/scatter_block.hpp"
 #include "kernels/math/lane_rows.hpp"
@@ -20,8 +19,6 @@ namespace {
 inline constexpr std::size_t ahead = 32;  // bonds, some 400 ns
 inline constexpr std::size_t stride = sizeof(BondLoad) / sizeof(Vec3);
 static_assert(bond_batch % width == 0 && ForceBuffer::capacity % bond_batch == 0);
-
-using Column = BondColumn;
 
 /// Rows of the particles, all as far apart: a row is found once for the three.
 struct ParticleRows {
@@ -73,108 +70,6 @@ template <Features features, class Bonds>
     __builtin_prefetch(&to.force[row], 1);
     if constexpr (features.rotation) __builtin_prefetch(&to.torque[row], 1);
   }
-}
-
-/// Which lanes of a batch broke in this step goes into the notes; rare, so out of the loop's way.
-template <Features features>
-[[gnu::noinline]] void note_breaks(const BondHistory<Lanes> now, const BondHistory<Lanes> before,
-                                   std::size_t b, BreakNotes& notes) {
-  for (std::size_t k = 0; k < width; ++k) {
-    const bool was = before.damage_normal[k] >= 1.0 || before.damage_shear[k] >= 1.0;
-    const bool is = now.damage_normal[k] >= 1.0 || now.damage_shear[k] >= 1.0;
-    if (was || !is) continue;
-    if (notes.count < notes.room.size())
-      notes.room[notes.count] = {static_cast<Index>(b + k),
-                                 {before.shear.x[k], before.shear.y[k], before.shear.z[k]},
-                                 features.plasticity ? static_cast<double>(before.plastic_stretch[k]) : 0.0,
-                                 before.damage_normal[k],
-                                 before.damage_shear[k]};
-    ++notes.count;
-  }
-}
-
-template <Features features, class Bonds>
-[[gnu::always_inline]] inline BondHistory<Lanes> history_of(const Bonds& bonds, std::size_t b) {
-  BondHistory<Lanes> h;
-  h.shear = {bonds.template load<Column::shear_x>(b), bonds.template load<Column::shear_y>(b),
-             bonds.template load<Column::shear_z>(b)};
-  if constexpr (features.plasticity) h.plastic_stretch = bonds.template load<Column::plastic_stretch>(b);
-  if constexpr (features.breakage) {
-    h.damage_normal = bonds.template load<Column::damage_normal>(b);
-    h.damage_shear = bonds.template load<Column::damage_shear>(b);
-  }
-  return h;
-}
-
-/// Most batches neither yield nor break in a step: what stays is not written.
-template <Features features, class Bonds>
-[[gnu::always_inline]] inline void keep_history(const Bonds& bonds, const BondHistory<Lanes>& h,
-                                                const BondHistory<Lanes>& before, std::size_t b,
-                                                BreakNotes* notes) {
-  bonds.template store<Column::shear_x>(b, h.shear.x);
-  bonds.template store<Column::shear_y>(b, h.shear.y);
-  bonds.template store<Column::shear_z>(b, h.shear.z);
-  if constexpr (features.plasticity)
-    if (any(h.plastic_stretch != before.plastic_stretch))
-      bonds.template store<Column::plastic_stretch>(b, h.plastic_stretch);
-  if constexpr (features.breakage)
-    if (any(h.damage_normal != before.damage_normal || h.damage_shear != before.damage_shear)) {
-      bonds.template store<Column::damage_normal>(b, h.damage_normal);
-      bonds.template store<Column::damage_shear>(b, h.damage_shear);
-      if (notes) note_breaks<features>(h, before, b, *notes);
-    }
-}
-
-/// Whether springs store all that a batch takes up in this step: where nothing is damaged and
-/// nothing yields, (B53) is zero but for round-off, whatever the pair's turn.
-template <Features features>
-[[gnu::always_inline]] inline bool loses_nothing_but_damping(const BondHistory<Lanes>& before,
-                                                             const BondHistory<Lanes>& h) {
-  if (features.unloading || is_damaged<features>(h)) return false;
-  if constexpr (features.plasticity) return !any(h.plastic_stretch != before.plastic_stretch);
-  return true;
-}
-
-/// Losses of a batch, added to those of its block; forces that do not follow from the state are
-/// kept for the next step.
-template <Features features, class Law, class Bonds>
-[[gnu::always_inline]] inline void keep_losses(const Law& law, const BondConstants<Lanes>& bond,
-                                               const Ends<Lanes>& ends, const Pair<Lanes>& pair, double dt,
-                                               const BondHistory<Lanes>& before, const BondHistory<Lanes>& h,
-                                               const BondAction<Lanes>& action, const Bonds& bonds,
-                                               std::size_t b, BondLosses<Lanes>& sum) {
-  const Lanes stretch = elongation(ends, pair, dt);
-  if (loses_nothing_but_damping<features>(before, h)) {
-    if constexpr (features.contact_damping) {
-      const Lanes viscous = action.along - action.spring;
-      sum.viscous +=
-          Lanes(0.5) * (bonds.template load<Column::viscous_force>(b) + viscous) * stretch;  // (B55)
-      bonds.template store<Column::viscous_force>(b, viscous);
-    }
-    return;
-  }
-  LastForces<Lanes> last;
-  const BondLosses<Lanes> loss =
-      losses_of_batch<features>(law, bond, pair, stretch, before, h, action, bonds, b, last);
-  if constexpr (features.contact_damping) bonds.template store<Column::viscous_force>(b, last.viscous);
-  if (is_damaged<features>(h)) {
-    bonds.template store<Column::spring_force>(b, last.spring);
-    bonds.template store<Column::shear_factor>(b, last.shear_factor);
-  }
-  sum.plastic += loss.plastic;
-  sum.viscous += loss.viscous;
-  sum.damage += loss.damage;
-  sum.friction += loss.friction;
-  sum.failure += loss.failure;
-}
-
-[[gnu::always_inline]] inline void add_lanes(const BondLosses<Lanes>& sum, BondLosses<double>& to) {
-  using std::experimental::reduce;
-  to.plastic += reduce(sum.plastic);
-  to.viscous += reduce(sum.viscous);
-  to.damage += reduce(sum.damage);
-  to.friction += reduce(sum.friction);
-  to.failure += reduce(sum.failure);
 }
 
 /// Where nobody else adds to the same rows, the forces of a batch are added while the next one is
@@ -234,21 +129,25 @@ template <Features features, bool ledger, class Law, class Bonds>
                                 bonds.template load<Column::strength_area>(b),
                                 bonds.template load<Column::stiffness>(b), Lanes(0.0)};
       if constexpr (features.contact_damping) bond.damping = bonds.template load<Column::damping>(b);
-      const BondHistory<Lanes> before = history_of<features>(bonds, b);
+      const BondHistory<Lanes> before = history_of<features, Lanes>(bonds, b);
       BondHistory<Lanes> h = before;
-      const BondAction<Lanes> action = act_on_batch<features>(law, b, bond, pair, h);
+      const BondStrain<Lanes> strain = strain_of<features.plasticity>(bond, pair, before.plastic_stretch);
+      const Vec<Lanes> rotated = rotate_with_pair<features.rotation>(before.shear, pair);
+      h.shear = rotated + shear_stiffness_of(law, b, bond.stiffness) * strain.slip;
+      const BondAction<Lanes> action = act_on_batch<features>(law, b, bond, strain, rotated, h);
       waiting.template add<2>();
       const Vec<Lanes> force = force_on_lo(action, pair);
       keep_history<features>(bonds, h, before, b, notes);
       if constexpr (ledger)
-        keep_losses<features>(law, bond, ends, pair, dt, before, h, action, bonds, b, loss);
+        keep_losses<features>(law, bond, strain, elongation(ends, pair, dt), before, h, action, bonds, b,
+                              loss);
       waiting.template add<3>();
       store_rows(force, &block.load[k].force, stride);
       if constexpr (features.rotation)
         store_rows(pair.distance * cross(pair.normal, force), &block.load[k].moment, stride);
       waiting.follow(b, k);
     }
-    if constexpr (ledger) add_lanes(loss, losses[first / ForceBuffer::capacity]);
+    if constexpr (ledger) add_lanes(loss, 1.0, losses[first / ForceBuffer::capacity]);
     if (!waiting.adds) scatter_block(to, block, first, count);
     first += count;
   }

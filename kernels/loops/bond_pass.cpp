@@ -4,22 +4,23 @@
 
 #include "kernels/loops/bond_loop.hpp"
 #include "kernels/loops/kernel_list.hpp"
+#include "kernels/math/flatten.hpp"
 
 namespace breccia::BRECCIA_ISA {
 namespace {
 
-/// Bonds as a structure of arrays of `Stored`; the rest length, from which small stretches are
-/// subtracted, is a double always.
-template <class Stored>
+/// Bonds as a structure of arrays.
 struct ColumnBonds {
   const BondPassIn& in;
-  const BondConstantColumns<Stored>& constants;
-  const BondHistoryColumns<Stored>& history;
+  const BondConstantColumns& constants;
+  const BondHistoryColumns& history;
   const BondLedgerColumns& ledger;
 
   Index lo(std::size_t k) const { return in.row_lo[k]; }
   Index hi(std::size_t k) const { return in.row_hi[k]; }
   std::size_t size() const { return in.row_lo.size(); }
+
+  const BreakEvent& in_si(const BreakEvent& event) const { return event; }
 
   template <Column column>
   Lanes load(std::size_t b) const {
@@ -51,33 +52,20 @@ private:
   }
 };
 
-// Instrumented by a sanitizer, a loop with all of its law in one function takes many minutes to
-// compile.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define BRECCIA_FLATTEN
-#else
-#define BRECCIA_FLATTEN [[gnu::flatten]]
-#endif
-
 template <std::size_t k>
 BRECCIA_FLATTEN void bond_pass(const BondPassIn& in, const BondPassHistory& history, std::size_t first,
                                std::size_t last, const Scatter& to, BreakNotes* notes) {
   constexpr KernelKind kernel = kernel_list[k];
   using Law = LawOfKernel<k>;
-  const auto run = [&](const auto& bonds) {
-    const auto under = [&](const auto& law) {
-      bond_loop<kernel.features, kernel.kind.ledger>(law, in.dt, ParticleRows(in), bonds, first, last, to,
-                                                     notes, history.ledger.losses);
-    };
-    if constexpr (kernel.features.several)
-      under(LawTable<Law>{in.laws, in.law});
-    else
-      under(*std::get_if<Law>(in.laws.data()));
+  const ColumnBonds bonds{in, in.constants, history.columns, history.ledger};
+  const auto under = [&](const auto& law) {
+    bond_loop<kernel.features, kernel.kind.ledger>(law, in.dt, ParticleRows(in), bonds, first, last, to,
+                                                   notes, history.ledger.losses);
   };
-  if constexpr (kernel.kind.precision == Precision::full)
-    run(ColumnBonds<double>{in, in.constants, history.full, history.ledger});
+  if constexpr (kernel.features.several)
+    under(LawTable<Law>{in.laws, in.law});
   else
-    run(ColumnBonds<float>{in, in.narrow_constants, history.narrow, history.ledger});
+    under(*std::get_if<Law>(in.laws.data()));
 }
 
 template <std::size_t... k>

@@ -14,22 +14,18 @@ namespace breccia {
 /// Bonds are padded to a multiple of this, whatever the register's width.
 inline constexpr std::size_t bond_batch = 8;
 
-/// What does not change of the bonds, beside their rest length. `Stored`: double, or float for
-/// mixed precision.
-template <class Stored>
+/// What does not change of the bonds, beside their rest length.
 struct BondConstantColumns {
-  std::span<const Stored> arm_offset, area, strength_area, stiffness, damping;
+  std::span<const double> arm_offset, area, strength_area, stiffness, damping;
 };
 
 /// What the pass changes.
-template <class Stored>
 struct BondHistoryColumns {
-  std::span<Stored> shear_x, shear_y, shear_z, plastic_stretch, damage_normal, damage_shear;
+  std::span<double> shear_x, shear_y, shear_z, plastic_stretch, damage_normal, damage_shear;
 };
 
 /// What the pass reads. Rows of particles (velocities and spins as far apart as positions), spans
-/// by bond row; columns of absent features, and those of the precision that does not run, are
-/// empty.
+/// by bond row; columns of absent features are empty.
 struct BondPassIn {
   double dt = 0;  ///< s
   std::span<const BondLaw>
@@ -37,8 +33,7 @@ struct BondPassIn {
   Strided<const Vec3> position, velocity, spin;
   std::span<const Index> row_lo, row_hi;
   std::span<const double> rest_length;
-  BondConstantColumns<double> constants;
-  BondConstantColumns<float> narrow_constants;
+  BondConstantColumns constants;
   std::span<const LawIndex> law = {};  ///< of several materials: which of the laws
 };
 
@@ -49,8 +44,7 @@ struct BondLedgerColumns {
 };
 
 struct BondPassHistory {
-  BondHistoryColumns<double> full;
-  BondHistoryColumns<float> narrow;
+  BondHistoryColumns columns;
   BondLedgerColumns ledger{};
 };
 

@@ -98,6 +98,9 @@ UndamagedEnergy undamaged_energy_for(InstructionSet set) {
 }
 
 Features built_features(const BondLaw& law, const Features& asked, const LoopKind& kind) {
+  if (kind.precision == Precision::single)
+    for (const KernelKind& k : single_list)
+      if (k.law == law.index() && k.features.covers(asked)) return k.features;
   for (const KernelKind& k : kernel_list)
     if (k.law == law.index() && k.features.covers(asked) && k.kind == kind) return k.features;
   throw std::invalid_argument("no bond kernel of this law covers the scene's features");

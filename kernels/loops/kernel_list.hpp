@@ -1,6 +1,6 @@
 // The kernels that are built per instruction set: each law for each of its feature sets, in the
-// order of bond_laws.hpp; once more with the energy ledger for the fullest of them; and the Dempack
-// law with all that it has in mixed precision, with and without the ledger.
+// order of bond_laws.hpp; once more with the energy ledger for the fullest of them. In single
+// precision the fullest of each law, which keep the ledger where they are asked to.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -37,7 +37,6 @@ constexpr void for_each_kernel(Visit&& visit) {
     }
     ++law_index;
   });
-  for (const bool ledger : {false, true}) visit(KernelKind{0, {}, {Precision::mixed, ledger}});
 }
 
 inline constexpr std::size_t kernel_count = [] {
@@ -50,6 +49,31 @@ inline constexpr std::array<KernelKind, kernel_count> kernel_list = [] {
   std::array<KernelKind, kernel_count> list{};
   std::size_t n = 0;
   for_each_kernel([&](const KernelKind& k) { list[n++] = k; });
+  return list;
+}();
+
+/// Calls visit(KernelKind) for each in single precision. Moments of cement are a pass in doubles.
+template <class Visit>
+constexpr void for_each_single_kernel(Visit&& visit) {
+  std::size_t law_index = 0;
+  for_each_law([&]<class Law>(const Law& law) {
+    for (const Features& f : law.feature_sets)
+      if (is_fullest(law, f) && !passes_moments<Law>)
+        visit(KernelKind{law_index, f, {Precision::single, false}});
+    ++law_index;
+  });
+}
+
+inline constexpr std::size_t single_count = [] {
+  std::size_t n = 0;
+  for_each_single_kernel([&](const KernelKind&) { ++n; });
+  return n;
+}();
+
+inline constexpr std::array<KernelKind, single_count> single_list = [] {
+  std::array<KernelKind, single_count> list{};
+  std::size_t n = 0;
+  for_each_single_kernel([&](const KernelKind& k) { list[n++] = k; });
   return list;
 }();
 

@@ -16,6 +16,8 @@ namespace {
 using Lanes = std::experimental::native_simd<double>;
 inline constexpr std::size_t width = Lanes::size();
 
+[[gnu::always_inline]] inline double sum_of_lanes(const Lanes& a) { return std::experimental::reduce(a); }
+
 using Register [[gnu::vector_size(8 * width)]] = double;  // a column over the batch
 
 #if defined(__AVX512F__)

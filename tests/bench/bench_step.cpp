@@ -14,6 +14,7 @@
 #include "core/world/energies.hpp"
 #include "core/world/loop_views.hpp"
 #include "core/world/make_world.hpp"
+#include "core/world/single_precision.hpp"
 #include "tests/scene.hpp"
 
 namespace {
@@ -67,7 +68,7 @@ World world(const benchmark::State& s, ScatterKind scatter = ScatterKind::privat
                               built_features(law_of(material, factor.shear_ratio), features), 2);
   World w = make_world(a, material, factor, options);
   put_into_state(w, static_cast<int>(s.range(2)));
-  if (precision == Precision::mixed) w.single_bonds = single_bonds(w.bonds);
+  fill_single(w);
   w.platens.velocity = {Vec3{0, 0, 0.02}, Vec3{0, 0, -0.02}};
   for (int k = 0; k < 20; ++k) advance(w);
   return w;
@@ -137,7 +138,7 @@ BENCHMARK_CAPTURE(whole_step, elastic, sums, Precision::full,
     ->Apply(intact);
 BENCHMARK_CAPTURE(whole_step, coupled, sums, Precision::full, Features{.criterion = Criterion::coupled})
     ->Apply(intact);
-BENCHMARK_CAPTURE(whole_step, mixed, ScatterKind::private_sums, Precision::mixed)->Apply(states);
+BENCHMARK_CAPTURE(whole_step, single, ScatterKind::private_sums, Precision::single)->Apply(states);
 BENCHMARK_CAPTURE(whole_step, gather, ScatterKind::gather)->Apply(states);
 
 }  // namespace

@@ -72,6 +72,20 @@ class SeveralRanks(ProgramTest):
             self.assertEqual((folder / cracks).read_text(), (self.alone / cracks).read_text())
         self.assertEqual(sorted(path.name for path in folder.iterdir()), sorted(path.name for path in self.alone.iterdir()))
 
+    def test_same_bits_in_single_precision_without_gather(self):
+        single = [*GATHER, "--set", 'run.scatter="private"', "--set", 'run.precision="single"']
+        alone = self.work / "single-alone"
+        result = run("triaxial", self.one, *single, "--out", alone, "--threads", "2", "--quiet")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        out = self.work / "single-ranks"
+        self.finish(self.launch(3, "triaxial", self.one, *single, "--out", out, "--threads", "1"))
+        ours, theirs = (json.loads((f / "summary.json").read_text())["runs"] for f in (out, alone))
+        for key in ("state_hash", "peak_stress_Pa", "steps", "broken_tension", "broken_shear", "length_quantum_m",
+                    "force_quantum_N"):
+            self.assertEqual([one[key] for one in ours], [one[key] for one in theirs], key)
+        self.assertGreater(ours[0]["broken_tension"], 50)
+        self.assertEqual((out / "cracks-0.csv").read_text(), (alone / "cracks-0.csv").read_text())
+
     def test_same_bits_on_any_number_of_ranks(self):
         for ranks, threads in ((2, 2), (3, 1), (4, 1)):
             with self.subTest(ranks=ranks, threads=threads):

@@ -98,8 +98,8 @@ class BadInput(ProgramTest):
         kdem = UCS.replace("[test]", 'law = "kdem"\ndamage_normal = 0.2\n[test]')
         self.refused("case.toml:8", "material.damage_normal", '"kdem"', "has no damage_normal", case=kdem)
         self.refused("material.law", '"kdem"', '"coupled"', case=UCS.replace("[test]", 'law = "kdem"\ncriterion = "coupled"\n[test]'))
-        self.refused("run.precision", '"mixed"', '"dempack"',
-                     case=UCS.replace("[test]", 'law = "kdem"\n[run]\nprecision = "mixed"\n[test]'))
+        cement = 'law = "parallel-bond"\n[run]\nprecision = "single"\n[test]'
+        self.refused("run.precision", '"single"', '"parallel-bond"', case=UCS.replace("[test]", cement))
         glue = UCS.replace('preset = "concrete"', """density = 2500
 law = "contact-bond"
 friction_dynamic = 0.5

@@ -274,8 +274,8 @@ class Impossible(Case):
                      "material.unloading_modulus: must be at least material.young_modulus, 28 GPa, not 20")
         self.refused("ucs", UCS.replace(preset, preset + '\nyield_stress = "1 MPa"'),
                      "material.yield_stress: must be at least the first limit_compressive_stress, 20 MPa, not 1")
-        self.refused("ucs", UCS.replace(preset, preset + '\nyield_stress = "40 MPa"') + '[run]\nprecision = "mixed"\n',
-                     'material.yield_stress: is not built for run.precision = "mixed"')
+        self.refused("ucs", UCS.replace(preset, preset + "\nrolling_friction = 0.1") + '[run]\nprecision = "single"\n',
+                     'material.rolling_friction: resistance to rolling is not built for run.precision = "single"')
         self.refused("ucs", UCS.replace(preset, preset + '\nyield_stress = "40 MPa"') + "[features]\nplasticity = false\n",
                      "material.yield_stress: with features.plasticity = false nothing yields")
 

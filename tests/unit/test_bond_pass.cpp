@@ -137,7 +137,6 @@ Loads pass(Bundle& s, const Features& features, InstructionSet set) {
                                      b.row_hi,
                                      b.rest_length,
                                      constant_columns(b),
-                                     {},
                                      b.law},
                                     {history_columns(b), {}}, 0, b.padded, to, nullptr);
   return c;

@@ -146,7 +146,7 @@ TEST_CASE("checkpoint: a run taken up gives the same bits as one that was never 
                  .scheme = DampingScheme::summed,
                  .ledger = false},
                 {3, 2, 30, 100}, 2);
-  check_variant({.name = "mixed precision", .precision = Precision::mixed}, stops, 1);
+  check_variant({.name = "single precision", .precision = Precision::single}, stops, 1);
   check_variant({.name = "cycles", .ledger = false, .unload_at = {0.0012, 0.002}}, {20, 60, 60, 60}, 1);
   check_variant({.name = "hydrostatic, ledger, gather",
                  .loading = Loading::hydrostatic,

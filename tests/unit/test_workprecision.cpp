@@ -170,7 +170,7 @@ TEST_CASE("work precision: the plan has every run once, the reference first and 
     CHECK(references == options.grid.shakes);
     CHECK(trials[0].recipe.platen_speed == 0.5 * options.grid.reference_speed);
     CHECK(trials[1].recipe.safety == 0.5 * options.grid.reference_safety);
-    options.mixed = false;
+    options.single = false;
     for (const Trial& t : plan_trials(options)) CHECK(t.recipe.precision == Precision::full);
     options.families = {Family::speed};
     for (const Trial& t : plan_trials(options))
@@ -184,10 +184,10 @@ TEST_CASE(
   base.scheme = DampingScheme::summed;
   base.mass_factor = 2;
   base.damping = {0.2, 0.1};
-  CHECK(describe(base) == "step 0.8, 0.1 m/s, summed, mass 2, damping 0.2/0.1, full, private");
+  CHECK(describe(base) == "step 0.8, 0.1 m/s, summed, mass 2, damping 0.2/0.1, double, private");
   CHECK(case_lines(base).find("mass_scaling = true\nmass_factor = 2\n") != std::string::npos);
   const Recipe reference = reference_recipe(grid_of(GridSize::full), base);
-  CHECK(describe(reference) == "step 0.2, 0.02 m/s, explicit, mass 1, damping 0.2/0.1, full, private");
+  CHECK(describe(reference) == "step 0.2, 0.02 m/s, explicit, mass 1, damping 0.2/0.1, double, private");
   CHECK(case_lines(reference).find("mass_scaling = false\n") != std::string::npos);
   CHECK(steps_over(reference, base) == doctest::Approx(20));
 }

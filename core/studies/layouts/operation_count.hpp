@@ -39,6 +39,7 @@ public:
   friend bool operator>(Counted a, Counted b) { return ++count().comparisons, a.value_ > b.value_; }
   friend bool operator<=(Counted a, Counted b) { return ++count().comparisons, a.value_ <= b.value_; }
   friend bool operator>=(Counted a, Counted b) { return ++count().comparisons, a.value_ >= b.value_; }
+  friend bool operator!=(Counted a, Counted b) { return ++count().comparisons, a.value_ != b.value_; }
 
 private:
   double value_ = 0;

@@ -16,6 +16,7 @@ struct BlockBonds {
   Index lo(std::size_t k) const { return in.row_lo[k]; }
   Index hi(std::size_t k) const { return in.row_hi[k]; }
   std::size_t size() const { return in.row_lo.size(); }
+  const BreakEvent& in_si(const BreakEvent& event) const { return event; }
 
   template <Column column>
   Lanes load(std::size_t b) const {

@@ -4,7 +4,7 @@
 
 namespace breccia {
 
-std::string_view name_of(Precision precision) { return precision == Precision::mixed ? "mixed" : "full"; }
+std::string_view name_of(Precision precision) { return precision == Precision::single ? "single" : "double"; }
 
 std::string describe(const Recipe& r) {
   const std::string damping = r.damping.translation == r.damping.rotation

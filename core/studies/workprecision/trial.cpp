@@ -90,7 +90,7 @@ std::vector<Trial> plan_trials(const PlanOptions& o) {
   std::vector<Trial> trials, different;
   plan_reference(o, trials);
   for (const GridRecipe& one : grid_recipes(o.grid, o.base, o.families)) {
-    if (one.recipe.precision == Precision::mixed && !o.mixed) continue;
+    if (one.recipe.precision == Precision::single && !o.single) continue;
     Trial trial;
     trial.family = one.family;
     trial.recipe = one.recipe;

@@ -50,8 +50,8 @@ struct PlanOptions {
   Grid grid;
   Recipe base;
   std::vector<Family> families;
-  int threads = 1;    ///< of timed runs
-  bool mixed = true;  ///< whether the bond loop of the scene is built in mixed precision
+  int threads = 1;     ///< of timed runs
+  bool single = true;  ///< whether the bond loop of the scene is built in single precision
 };
 
 /// The reference: explicit dashpots, true masses, full precision, the base's global damping.

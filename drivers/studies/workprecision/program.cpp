@@ -31,7 +31,7 @@ std::string heading(const WorkPrecisionResults& r, const Case& c, std::size_t tr
         "\nonly the first of {} confinements is run: {:.4g} MPa; name another with --set "
         "test.confinement",
         c.test.confinement.size(), r.confinement * 1e-6);
-  if (!has_mixed_loop(c)) text += "\nmixed precision is not built for the bonds of this case: left out";
+  if (!has_single_loop(c)) text += "\nsingle precision is not built for the bonds of this case: left out";
   if (r.threads > m.cores) text += fmt::format("\nwarning: {} threads share {} cores", r.threads, m.cores);
   return text;
 }
@@ -168,7 +168,7 @@ void run_study(const WorkPrecisionOptions& options) {
   results.threads = options.threads;
   results.base = recipe_of(c);
   const std::vector<Trial> trials =
-      plan_trials({options.grid, results.base, options.families, options.threads, has_mixed_loop(c)});
+      plan_trials({options.grid, results.base, options.families, options.threads, has_single_loop(c)});
   say(progress, heading(results, c, trials.size()));
   FolderLock lock;
   const bool same = is_resolved_already(options.out, c.source, c.resolved);

@@ -88,11 +88,11 @@ StudyScene make_study_scene(const Case& c, const std::string& test, const std::v
   return scene;
 }
 
-bool has_mixed_loop(const Case& c) {
+bool has_single_loop(const Case& c) {
   const Material& m = c.materials.front();
   try {
     built_features(law_of(m, paper_shear_ratio(m.poisson_ratio)), asked_features(c),
-                   {Precision::mixed, c.features.energy_ledger});
+                   {Precision::single, c.features.energy_ledger});
     return true;
   } catch (const std::invalid_argument&) {
     return false;

@@ -28,8 +28,8 @@ std::string test_of_case(const std::filesystem::path& file, const std::vector<st
 StudyScene make_study_scene(const Case& c, const std::string& test, const std::vector<Trial>& trials,
                             int threads, Progress& progress);
 
-/// Whether the bond loop of the case is built in mixed precision.
-bool has_mixed_loop(const Case& c);
+/// Whether the bond loop of the case is built in single precision.
+bool has_single_loop(const Case& c);
 
 /// The recipe that the case names.
 Recipe recipe_of(const Case& c);

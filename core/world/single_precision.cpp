@@ -1,0 +1,107 @@
+#include "core/world/single_precision.hpp"
+
+#include <array>
+#include <atomic>
+
+#include "core/base/threads.hpp"
+#include "core/world/loop_views.hpp"
+
+namespace breccia {
+namespace {
+
+/// Records of rows [first, last).
+unsigned refresh(World& w, std::size_t first, std::size_t last) {
+  const RecordedMotion motion = recorded_motion(w);
+  std::atomic<unsigned> events = 0;
+  for_rows(last - first, w.options.threads, [&](std::size_t from, std::size_t to) {
+    events |= w.refresh_records(motion, first + from, first + to, w.dt);
+  });
+  if (events & place_is_far)
+    for (std::size_t row = first; row < last; ++row)
+      if (is_far(w.single, w.particles, row)) w.single.moved_far.push_back(static_cast<Row>(row));
+  return events;
+}
+
+}  // namespace
+
+void start_single(World& w) {
+  if (w.options.precision != Precision::single) return;
+  w.single.quanta = choose_quanta(w.particles, w.bonds);
+  set_anchors(w.single.quanta, w.particles, w.dt);
+  fill_single(w);
+}
+
+void fill_single(World& w) {
+  if (w.options.precision != Precision::single) return;
+  fill(w.single, w.particles, w.bonds, w.laws, w.dt);
+  set_targets(w.single, w.bond_plan.to_lo, w.bond_plan.to_hi, w.bond_plan.slot_count, w.bonds);
+}
+
+void forget_blocks(SingleStore& s) {
+  const SingleStore before = std::move(s);
+  s = {};
+  s.quanta = before.quanta, s.renewals = before.renewals, s.coarsenings = before.coarsenings;
+}
+
+std::array<bool, 4> events_of_all(const World& w) {
+  const unsigned mine = w.single.events;
+  std::array<double, 4> found;
+  for (unsigned k = 0; k < 4; ++k) found[k] = mine >> k & 1u ? 1.0 : 0.0;
+  if (!w.partition.ranks.alone()) all_reduce_max(w.partition.ranks, found);
+  return {found[0] > 0.0, found[1] > 0.0, found[2] > 0.0, found[3] > 0.0};
+}
+
+void pass_in_single(World& w, const std::function<void(const SingleRange&)>& for_bonds) {
+  const SinglePassIn in = single_pass_in(w);
+  std::atomic<unsigned> events = 0;
+  for_bonds([&](int, std::size_t first, std::size_t last, BreakNotes* notes) {
+    events |= w.single_pass(in, first, last, notes);
+  });
+  w.single.events |= events;
+}
+
+void collect_single(World& w) {
+  SingleStore& s = w.single;
+  const ScatterPlan& plan = w.bond_plan;
+  for (std::size_t k = 0; k < plan.shared.size(); ++k) {
+    IntegerSums& to = s.sums[plan.shared[k]];
+    for (Index slot = plan.first_slot[k]; slot < plan.first_slot[k + 1]; ++slot) {
+      IntegerSums& from = s.sums[plan.slots[slot]];
+      // (B129)
+      for (int c = 0; c < 3; ++c) to.force[c] += from.force[c], to.moment[c] += from.moment[c];
+      from = {};
+    }
+  }
+  const CollectedSums sums = collected_sums(w);
+  const Rows mine = w.partition.owned();
+  for_rows(mine.last - mine.first, w.options.threads, [&](std::size_t first, std::size_t last) {
+    w.collect_sums(sums, mine.first + first, mine.first + last);
+  });
+  // what was added to the others' particles, they add themselves
+  for (const Neighbour& n : w.partition.neighbours)
+    for (const Row row : n.receive) s.sums[row] = {};
+}
+
+void record_motion(World& w) {
+  if (w.single.empty()) return;
+  const Lap lap(w.phases, Phase::integrate);
+  const Rows mine = w.partition.owned();
+  w.single.events |= refresh(w, mine.first, mine.last);
+  w.single.ghosts_are_current = false;
+}
+
+void renew_far(World& w) {
+  if (w.single.moved_far.empty()) return;
+  const Lap lap(w.phases, Phase::integrate);
+  renew_anchors(w.single, w.particles, w.bonds);
+}
+
+void record_ghosts(World& w) {
+  if (w.single.empty() || w.single.ghosts_are_current) return;
+  // what happens to them their owners report
+  for (const Neighbour& n : w.partition.neighbours)
+    for (const Row row : n.receive) refresh(w, row, row + 1);
+  w.single.ghosts_are_current = true;
+}
+
+}  // namespace breccia

@@ -1,0 +1,37 @@
+// A world in single precision: the loop's records and sums, and the particles in doubles, follow
+// each other. Nothing here does anything in double precision. docs/model.md, "Single precision".
+#pragma once
+#include <array>
+#include <functional>
+
+#include "core/world/world.hpp"
+
+namespace breccia {
+
+/// Chooses the quanta from the whole specimen, and fills the store.
+void start_single(World& world);
+
+/// From tables that are up to date: those of a checkpoint, or a rank's part.
+void fill_single(World& world);
+
+/// What only a rank that runs bonds needs.
+void forget_blocks(SingleStore& store);
+
+/// Whether each SingleEvent, in order of its bits, has happened on any rank. To be entered by all.
+std::array<bool, 4> events_of_all(const World& world);
+
+/// Passes over bonds; for_bonds(pass) calls pass(range, first, last, notes).
+using SingleRange = std::function<void(int, std::size_t, std::size_t, BreakNotes*)>;
+void pass_in_single(World& world, const std::function<void(const SingleRange&)>& for_bonds);
+
+/// The sums become forces of particles.
+void collect_single(World& world);
+
+/// After the particles of this rank have moved; those of others, once they have come.
+void record_motion(World& world);
+void record_ghosts(World& world);
+
+/// Anchors of particles that have moved far, before the next pass over their bonds.
+void renew_far(World& world);
+
+}  // namespace breccia

@@ -1,0 +1,336 @@
+// The loop over bonds in single precision: the law in registers of floats, between integers that
+// the ends' motion is read from and the forces are added to. docs/model.md, "Single precision".
+// Included by files that are compiled per instruction set only.
+#pragma once
+#include <algorithm>
+#include <atomic>
+
+#include "kernels/loops/batch_history.hpp"
+#include "kernels/math/record_rows.hpp"
+#include "kernels/single/single.hpp"
+
+namespace breccia::BRECCIA_ISA {
+namespace {
+
+/// Bonds as blocks of sixteen, as the shared parts of the loops take them.
+struct BlockBonds {
+  const SinglePassIn& in;
+
+  template <Column column>
+  [[gnu::always_inline]] FloatLanes load(std::size_t b) const {
+    if constexpr (column == Column::strength_area)
+      return in.own_strength_area ? from(in.rare[b / bond_block].strength_area, b) : load<Column::area>(b);
+    else
+      return from(values<column>(b), b);
+  }
+  template <Column column>
+  [[gnu::always_inline]] void store(std::size_t b, const FloatLanes& lanes) const {
+    if constexpr (column == Column::plastic_stretch)
+      to(in.bonds[b / bond_block].plastic, b, lanes - from(in.rare[b / bond_block].anchored, b));
+    if constexpr (column == Column::damage_normal) in.damaged[b / bond_block] = 1;
+    to(values<column>(b), b, lanes);
+  }
+  BreakEvent in_si(BreakEvent event) const {
+    const double sign = in.row_lo[event.bond] > in.row_hi[event.bond] ? -in.force : in.force;
+    event.shear = sign * event.shear;
+    event.plastic_stretch *= in.length;
+    return event;
+  }
+
+private:
+  static FloatLanes from(const float (&block)[bond_block], std::size_t b) {
+    return FloatLanes::Register(block + b % bond_block, std::experimental::vector_aligned);
+  }
+  static void to(float (&block)[bond_block], std::size_t b, const FloatLanes& lanes) {
+    lanes.v.copy_to(block + b % bond_block, std::experimental::vector_aligned);
+  }
+  template <Column column>
+  auto& values(std::size_t b) const {
+    const std::size_t k = b / bond_block;
+    if constexpr (column == Column::area) return in.bonds[k].area;
+    if constexpr (column == Column::stiffness) return in.bonds[k].stiffness;
+    if constexpr (column == Column::damping) return in.bonds[k].damping;
+    if constexpr (column == Column::arm_offset) return in.bonds[k].per_radii;
+    if constexpr (column == Column::shear_x) return in.bonds[k].shear_x;
+    if constexpr (column == Column::shear_y) return in.bonds[k].shear_y;
+    if constexpr (column == Column::shear_z) return in.bonds[k].shear_z;
+    if constexpr (column == Column::plastic_stretch) return in.rare[k].plastic_stretch;
+    if constexpr (column == Column::damage_normal) return in.rare[k].damage_normal;
+    if constexpr (column == Column::damage_shear) return in.rare[k].damage_shear;
+    if constexpr (column == Column::spring_force) return in.ledger[k].spring_force;
+    if constexpr (column == Column::viscous_force) return in.ledger[k].viscous_force;
+    if constexpr (column == Column::shear_factor) return in.ledger[k].shear_factor;
+  }
+};
+
+/// How a batch of pairs moves in a step, from differences of integers.
+struct PairMotion {
+  Vec<FloatLanes> branch, moved, spun;  ///< quanta; 1/4 quantum
+  FloatLanes per_radii;                 ///< 1/(r_lo + r_hi)
+  FloatLanes per_square, per_distance;  ///< 1/d^2, 1/d
+  FloatLanes longer;                    ///< than between the anchors
+  FloatLanes anchor_distance;           ///< between the anchors
+  FloatLanes along;                     ///< moved . branch
+  FloatLanes rate;                      ///< of elongation, quanta a step
+};
+
+/// (B127): |l| - |l0| = (l + l0).(l - l0)/(|l| + |l0|): without the difference of two large
+/// numbers.
+[[gnu::always_inline]] inline PairMotion motion_of(const EndColumns& ends, const FloatLanes& per_radii) {
+  const FloatLanes coarse(coarse_parts), finer(1.0 / fine_parts);
+  PairMotion m;
+  const Vec<FloatLanes> anchors = coarse * ends.anchor;
+  m.branch = anchors + ends.place;
+  m.moved = ends.moved, m.spun = ends.spun;
+  m.per_radii = per_radii;
+  const FloatLanes square = dot(m.branch, m.branch);
+  const FloatLanes growth = dot(anchors + m.branch, ends.place);
+  const FloatLanes distance = sqrt(square);
+  m.anchor_distance = sqrt(square - growth);
+  m.per_square = FloatLanes(1.0) / square;
+  m.per_distance = distance * m.per_square;
+  m.longer = growth / (distance + m.anchor_distance);
+  m.along = dot(m.moved, m.branch);
+  m.rate = finer * m.per_distance * m.along;
+  return m;
+}
+
+/// The history of shear, carried along with the pair and with this step's k_s du: the turn of the
+/// normal, the twist about it and the slip in one expression without the normal (B128).
+template <bool rotation>
+[[gnu::always_inline]] inline Vec<FloatLanes> trial_shear(const PairMotion& m, const Vec<FloatLanes>& f,
+                                                          const FloatLanes& k_s) {
+  const FloatLanes finer(1.0 / fine_parts), half(0.5);
+  const FloatLanes out_of_plane = dot(f, m.branch) * m.per_square, stretch = m.along * m.per_square;
+  const FloatLanes g = finer * (k_s + half * out_of_plane), h = g * stretch + out_of_plane;
+  Vec<FloatLanes> trial = f + g * m.moved - h * m.branch;
+  if constexpr (rotation) {
+    const FloatLanes per_fine = finer * m.per_radii, twist = per_fine * dot(m.spun, m.branch);
+    const FloatLanes turn = twist * m.per_square;
+    trial += cross(m.branch, turn * f + (k_s * per_fine) * m.spun) - (half * twist * turn) * f;
+  }
+  return trial;
+}
+
+/// This step's, quanta.
+template <bool rotation>
+[[gnu::always_inline]] inline Vec<FloatLanes> slip_of(const PairMotion& m) {
+  Vec<FloatLanes> slip = m.moved - (m.along * m.per_square) * m.branch;
+  if constexpr (rotation) slip += m.per_radii * cross(m.branch, m.spun);
+  return FloatLanes(1.0 / fine_parts) * slip;
+}
+
+/// (B6): of this step, quanta, to second order.
+[[gnu::always_inline]] inline FloatLanes elongation_of(const PairMotion& m) {
+  const FloatLanes finer(1.0 / fine_parts * (1.0 / fine_parts));
+  const FloatLanes across = finer * dot(m.moved, m.moved) - m.rate * m.rate;
+  return m.rate - FloatLanes(0.5) * m.per_distance * across;
+}
+
+/// The loads of a batch are added while the next one is worked out, a bond at a time: a processor
+/// looks some 300 instructions ahead, a batch has 600.
+class WaitingLoads {
+public:
+  explicit WaitingLoads(const SinglePassIn& in) : in_(in), sums_(reinterpret_cast<char*>(in.sums.data())) {}
+
+  /// Bonds [part, part + 1)/16 of the batch.
+  template <std::size_t part>
+  [[gnu::always_inline]] void add() const {
+    if constexpr (part < float_width)
+      if (near_) add_bond(part);
+  }
+  [[gnu::always_inline]] void follow(std::size_t b, const Vec<FloatLanes>& force,
+                                     const Vec<FloatLanes>& moment) {
+    rows_ = rows_ == buffer_ ? buffer_ + float_width : buffer_;
+    store_load_rows(force, moment, rows_);
+    if (in_.targets.atomic) return add_atomically(b);
+    near_ = near_targets(b), far_ = far_targets(b);
+  }
+  void finish() const {
+    for (std::size_t lane = 0; near_ && lane < float_width; ++lane) add_bond(lane);
+  }
+
+private:
+  [[gnu::always_inline]] const Index* near_targets(std::size_t b) const {
+    return in_.targets.near.empty() ? in_.bonds[b / bond_block].near + b % bond_block
+                                    : in_.targets.near.data() + b;
+  }
+  [[gnu::always_inline]] const Index* far_targets(std::size_t b) const {
+    return in_.targets.far.empty() ? in_.bonds[b / bond_block].far + b % bond_block
+                                   : in_.targets.far.data() + b;
+  }
+  [[gnu::always_inline]] IntRow& sum(Index row) const {
+    return *reinterpret_cast<IntRow*>(sums_ + std::size_t{4} * row);
+  }
+  [[gnu::always_inline]] void add_bond(std::size_t lane) const {
+    const IntRow row = rows_[place_of_lane(lane)];
+    sum(near_[lane]) += row;
+    sum(far_[lane]) += on_hi(row);  // (P3) (P18)
+  }
+  void add_atomically(std::size_t b) const {
+    const auto add = [&](Index target, const IntRow& row) {
+      IntRow& to = sum(target & ~shared_row);
+      if (!(target & shared_row)) {
+        to += row;
+        return;
+      }
+      auto* numbers = reinterpret_cast<std::int32_t*>(&to);
+      for (int k = 0; k < 8; ++k)
+        if (k % 4 != 3) std::atomic_ref(numbers[k]).fetch_add(row[k], std::memory_order_relaxed);
+    };
+    for (std::size_t lane = 0; lane < float_width; ++lane) {
+      const IntRow row = rows_[place_of_lane(lane)];
+      add(near_targets(b)[lane], row), add(far_targets(b)[lane], on_hi(row));
+    }
+  }
+
+  const SinglePassIn& in_;
+  char* const sums_;
+  alignas(64) IntRow buffer_[2 * float_width];
+  IntRow* rows_ = buffer_;
+  const Index *near_ = nullptr, *far_ = nullptr;
+};
+
+/// Asks for the far ends of a later batch, 64 bonds on: some 250 ns.
+[[gnu::always_inline]] inline void prefetch_ends(const SinglePassIn& in, std::size_t b) {
+  constexpr std::size_t ahead = 64;
+  const std::size_t later = std::min(b + ahead, bond_block * in.bonds.size() - float_width);
+  const Index* const rows = in.bonds[later / bond_block].far + later % bond_block;
+  const char* const motion = reinterpret_cast<const char*>(in.motion.data());
+  const char* const sums = reinterpret_cast<const char*>(in.sums.data());
+  for (std::size_t lane = 0; lane < float_width; ++lane) {
+    __builtin_prefetch(motion + std::size_t{8} * rows[lane]);
+    __builtin_prefetch(sums + std::size_t{4} * rows[lane], 1);
+  }
+}
+
+[[gnu::always_inline]] inline EndColumns ends_of(const SinglePassIn& in, std::size_t b) {
+  const BondBlock& block = in.bonds[b / bond_block];
+  const Index *const near = block.near + b % bond_block, *const far = block.far + b % bond_block;
+  const char* const motion = reinterpret_cast<const char*>(in.motion.data());
+  const auto record = [&](Index row) __attribute__((always_inline)) {
+    return reinterpret_cast<const std::int32_t*>(motion + std::size_t{8} * row);
+  };
+  return columns_of_ends(
+      [&](std::size_t k) __attribute__((always_inline)) { return record(near[k]); },
+      [&](std::size_t k) __attribute__((always_inline)) { return record(far[k]); });
+}
+
+/// Bonds in which more than springs and dashpots may act, if they are not damaged.
+template <Features features, class Law>
+[[gnu::always_inline]] inline FloatLanes::Mask may_change(const Law& law,
+                                                          const BondConstants<FloatLanes>& bond,
+                                                          const FloatLanes& stretch,
+                                                          const FloatLanes& elastic, const FloatLanes& normal,
+                                                          const Vec<FloatLanes>& shear) {
+  FloatLanes::Mask may(false);
+  if constexpr (features.plasticity) may = may_yield(law, bond, stretch, elastic);
+  if constexpr (features.breakage)
+    may = may || may_fail<features.criterion == Criterion::coupled>(law.failure, limits_of(law, bond), normal,
+                                                                    dot(shear, shear));
+  return may;
+}
+
+/// Whether the law of a batch without damage may be left out.
+template <Features features, class Law>
+inline constexpr bool has_short_way = !features.unloading && !features.several;
+
+/// Bonds [first, last). To be flattened by the caller (see bond_loop.hpp).
+/// @returns SingleEvent bits
+template <Features features, class Law>
+[[gnu::always_inline]] inline unsigned single_loop(const Law& law, const SinglePassIn& in, std::size_t first,
+                                                   std::size_t last, BreakNotes* notes) {
+  const BlockBonds bonds{in};
+  WaitingLoads waiting(in);
+  const FloatLanes limit(in.force_limit), beyond(4.0 * in.force_limit);
+  const bool ledger = !in.ledger.empty();
+  bool large = false, lost = false;
+  while (first < last) {
+    const std::size_t end = std::min(first + ForceBuffer::capacity, last);
+    BondLosses<FloatLanes> loss{};
+    for (std::size_t b = first; b < end; b += float_width) {
+      prefetch_ends(in, b);
+      const EndColumns ends = ends_of(in, b);
+      waiting.add<0>(), waiting.add<1>();
+      const PairMotion pair = motion_of(ends, bonds.load<Column::arm_offset>(b));
+      waiting.add<2>(), waiting.add<3>(), waiting.add<4>();
+      BondConstants<FloatLanes> bond{pair.anchor_distance, bonds.load<Column::area>(b),
+                                     bonds.load<Column::strength_area>(b), bonds.load<Column::stiffness>(b),
+                                     FloatLanes(0.0)};
+      if constexpr (features.contact_damping) bond.damping = bonds.load<Column::damping>(b);
+      const Vec<FloatLanes> before{bonds.load<Column::shear_x>(b), bonds.load<Column::shear_y>(b),
+                                   bonds.load<Column::shear_z>(b)};
+      const FloatLanes k_s = shear_stiffness_of(law, b, bond.stiffness);
+      const Vec<FloatLanes> trial = trial_shear<features.rotation>(pair, before, k_s);
+      waiting.add<5>(), waiting.add<6>(), waiting.add<7>();
+      const FloatLanes elastic =
+          pair.longer - FloatLanes(FloatLanes::Register(in.bonds[b / bond_block].plastic + b % bond_block,
+                                                        std::experimental::vector_aligned));
+      const FloatLanes normal = bond.stiffness * elastic;
+      Vec<FloatLanes> shear = trial;
+      FloatLanes total = normal;
+      if constexpr (features.contact_damping) total += bond.damping * pair.rate;
+      waiting.add<8>(), waiting.add<9>();
+      FloatLanes::Mask acts(true);  // the law, and not springs and dashpots alone
+      bool short_way = false;
+      if constexpr (has_short_way<features, Law>) {
+        const auto stretch = [&] {
+          if constexpr (requires { law.strain_limit; })
+            return pair.longer +
+                   FloatLanes(FloatLanes::Register(in.rare[b / bond_block].anchored + b % bond_block,
+                                                   std::experimental::vector_aligned));
+          else
+            return elastic;
+        };
+        acts = may_change<features>(law, bond, stretch(), elastic, normal, trial);
+        short_way = in.damaged[b / bond_block] == 0 && !any(acts);
+      }
+      if (short_way) [[likely]] {
+        bonds.store<Column::shear_x>(b, trial.x);
+        bonds.store<Column::shear_y>(b, trial.y);
+        bonds.store<Column::shear_z>(b, trial.z);
+        if constexpr (features.contact_damping)
+          if (ledger) keep_viscous_loss(FloatLanes(total - normal), elongation_of(pair), bonds, b, loss);
+      } else {
+        const BondHistory<FloatLanes> was = history_of<features, FloatLanes>(bonds, b);
+        BondHistory<FloatLanes> h = was;
+        h.shear = trial;
+        const FloatLanes stretch =
+            pair.longer + FloatLanes(FloatLanes::Register(in.rare[b / bond_block].anchored + b % bond_block,
+                                                          std::experimental::vector_aligned));
+        const BondStrain<FloatLanes> strain{stretch, elastic, pair.rate, pair.rate,
+                                            slip_of<features.rotation>(pair)};
+        const Vec<FloatLanes> rotated = trial - k_s * strain.slip;
+        BondAction<FloatLanes> action = act_on_batch<features>(law, b, bond, strain, rotated, h);
+        if constexpr (has_short_way<features, Law>) {
+          // the others as on the short way, to the last bit: who shares a register is chance
+          if constexpr (features.breakage) acts = acts || damaged_lanes(was);
+          h.shear = select(acts, h.shear, trial);
+          action.shear = select(acts, action.shear, trial);
+          action.along = select(acts, action.along, total);
+        }
+        keep_history<features>(bonds, h, was, b, notes);
+        if (ledger)
+          keep_losses<features>(law, bond, strain, elongation_of(pair), was, h, action, bonds, b, loss);
+        total = action.along, shear = action.shear;
+      }
+      waiting.add<10>(), waiting.add<11>();
+      const Vec<FloatLanes> force = (total * pair.per_distance) * pair.branch + shear;
+      const FloatLanes most = larger(magnitude(force.x), larger(magnitude(force.y), magnitude(force.z)));
+      if (any(!(most <= limit))) [[unlikely]]
+        large = true, lost = lost || any(!(most <= beyond));
+      waiting.add<12>(), waiting.add<13>();
+      Vec<FloatLanes> moment{FloatLanes(0.0), FloatLanes(0.0), FloatLanes(0.0)};
+      if constexpr (features.rotation) moment = cross(pair.per_radii * pair.branch, shear);
+      waiting.add<14>(), waiting.add<15>();
+      waiting.follow(b, force, moment);
+    }
+    if (ledger) add_lanes(loss, in.length * in.force, in.losses[first / ForceBuffer::capacity]);
+    first = end;
+  }
+  waiting.finish();
+  return (large ? force_is_large : 0u) | (lost ? force_is_lost : 0u);
+}
+
+}  // namespace
+}  // namespace breccia::BRECCIA_ISA
