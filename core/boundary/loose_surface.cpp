@@ -28,6 +28,10 @@ bool has_only(const ParticleTable& p, Row row, const Vec3& force) {
 
 }  // namespace
 
+bool looks_at_all(const Confinement& c, std::uint64_t step) {
+  return !c.rigid && c.pressure != 0.0 && step % look_every == 0;
+}
+
 void let_loose_drift(Confinement& c, ParticleTable& p, const Partition& partition,
                      const Surroundings& around) {
   c.flying.clear();
@@ -41,7 +45,7 @@ void let_loose_drift(Confinement& c, ParticleTable& p, const Partition& partitio
     if (!c.drifts[k]) return;
     if (const auto force = braked(p, row, most, around.dt)) p.force[row] = c.force[k] = *force;
   });
-  if (around.step % look_every != 0) return;
+  if (!looks_at_all(c, around.step)) return;
   const Rows mine = partition.owned();
   for (std::size_t at = mine.first; at < mine.last; ++at) {
     const Row row = static_cast<Row>(at);

@@ -20,4 +20,8 @@ struct Surroundings {
 void let_loose_drift(Confinement& confinement, ParticleTable& particles, const Partition& partition,
                      const Surroundings& around);
 
+/// Whether it looks at the forces of all particles in this step, and not at those of the surface
+/// alone.
+bool looks_at_all(const Confinement& confinement, std::uint64_t step);
+
 }  // namespace breccia

@@ -69,6 +69,8 @@ struct Confinement {
   std::vector<char> drifts;      ///< nothing but the pressure acts on it in this step (B112)
   std::vector<Row> flying;       ///< of this rank: others on which nothing acts, and that the fluid
   std::vector<Vec3> brake;       ///< N, holds back in this step
+
+  bool acts() const { return pressure != 0.0 || pressure_x != 0.0; }
 };
 
 /// @param rigid  a wall instead of a fluid

@@ -71,4 +71,19 @@ double read_gauge(const Gauge& gauge, Strided<const Vec3> position, std::span<co
   });
 }
 
+Watch watch_of(const Gauge& axial, const Gauge& lateral, std::span<const Vec3> reference,
+               const Partition& partition) {
+  Watch watch;
+  if (axial.rows.empty() && lateral.rows.empty()) return watch;
+  watch.weights.assign(reference.size(), {});
+  for (const Gauge* gauge : {&axial, &lateral})
+    for (std::size_t k = 0; k < gauge->rows.size(); ++k) watch.weights[gauge->rows[k]] += gauge->weights[k];
+  std::vector<Vec3> blocks;
+  watch.reference = sum_particles(partition, 1, blocks, [&](std::size_t row) {
+    const Vec3 &weight = watch.weights[row], &x = reference[row];
+    return Vec3{weight.x * x.x, weight.y * x.y, weight.z * x.z};
+  });
+  return watch;
+}
+
 }  // namespace breccia

@@ -5,6 +5,7 @@
 
 #include "core/bonding/assembly.hpp"
 #include "core/ranks/partition.hpp"
+#include "core/tables/column_storage.hpp"
 
 namespace breccia {
 
@@ -26,5 +27,20 @@ Gauge lateral_gauge(const Assembly& assembly, std::span<const Gid> left_out = {}
 /// Strain of the gauge between reference and present positions.
 double read_gauge(const Gauge& gauge, Strided<const Vec3> position, std::span<const Vec3> reference,
                   const Partition& partition, int threads = 1);
+
+/// Gauges as sums over all rows that the integration takes on its way: a component of the
+/// specimen's axis for the axial one, the two across for the lateral one.
+struct Watch {
+  Column<Vec3> weights;  ///< 1/m, by row; empty: nobody reads
+  Vec3 reference;        ///< sum of weights times reference positions
+  Vec3 reading;          ///< strains by component, at the end of the last step
+
+  double axial() const { return reading.z; }
+  double lateral() const { return reading.x + reading.y; }
+};
+
+/// Of an axial gauge, which has weights along z, and a lateral one, which has them across.
+Watch watch_of(const Gauge& axial, const Gauge& lateral, std::span<const Vec3> reference,
+               const Partition& partition);
 
 }  // namespace breccia

@@ -82,7 +82,8 @@ void look(ImpactWorld& w) {
 void integrate(ImpactWorld& w) {
   ParticleTable& p = w.particles;
   static const IntegrateFree integrate_free = integrate_free_for(best_instruction_set());
-  integrate_free({p.position, p.velocity, p.spin, p.force, p.torque, p.mass, p.radius}, 0, p.size, w.dt, {});
+  integrate_free({p.position, p.velocity, p.spin, p.force, p.torque, p.mass, p.radius}, 0, p.size, w.dt, {},
+                 false);
 }
 
 /// A scene at its start: velocities are set back half a step, through which gravity alone has

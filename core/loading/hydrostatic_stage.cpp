@@ -7,6 +7,7 @@
 #include "core/loading/stages.hpp"
 #include "core/stepping/step.hpp"
 #include "core/world/energies.hpp"
+#include "core/world/sync.hpp"
 
 namespace breccia {
 namespace {
@@ -21,6 +22,7 @@ bool is_slow(const Run& run) {
 /// What stage 1 did to the bonds.
 void count_yielded(Run& run) {
   World& w = run.w;
+  sync(w);
   const BrokenCount broken = count_broken(w);
   run.result.stage1_broken = broken.tension + broken.shear;
   std::vector<std::uint64_t> blocks;

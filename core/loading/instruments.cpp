@@ -53,10 +53,9 @@ StepReading read(World& w, const Instruments& in) {
     return r;
   }
   r.platen_strain = in.sign * (approach(w.platens) - in.zeros.approach) / in.free_length;  // (B77)
-  r.axial_strain =
-      in.axial.rows.empty() ? r.platen_strain : in.sign * (gauge_now(w, in.axial) - in.zeros.axial);
+  r.axial_strain = in.axial.rows.empty() ? r.platen_strain : in.sign * (w.watch.axial() - in.zeros.axial);
   r.radial_strain =
-      in.lateral.rows.empty() ? CurveRow::untracked : in.sign * (gauge_now(w, in.lateral) - in.zeros.lateral);
+      in.lateral.rows.empty() ? CurveRow::untracked : in.sign * (w.watch.lateral() - in.zeros.lateral);
   r.axial_stress = in.sign * axial_stress(w.platens);
   // across a disc strains are not uniform: no volume follows from them (B79)
   r.volumetric_strain = in.grip == Support::strips ? CurveRow::untracked

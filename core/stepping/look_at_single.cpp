@@ -17,9 +17,9 @@ constexpr std::uint64_t looked_at_every = 8;
         "sums can hold; take a smaller time.safety, or run.precision = \"double\"",
         2.0 * q.force_limit * q.force, looked_at_every);
   fail<SimulationBroke>(
-      "run.precision = \"single\": a sphere is faster than {:.3g} m/s, more than its record can hold; take a "
-      "smaller time.safety, or run.precision = \"double\"",
-      lost_motion / fine_parts * q.length / w.dt);
+      "run.precision = \"single\": a sphere is faster than {:.3g} m/s, or farther than {:.3g} m from the "
+      "specimen, more than its record can hold; take a smaller time.safety, or run.precision = \"double\"",
+      lost_motion / fine_parts * q.length / w.dt, lost_place * q.length);
 }
 
 }  // namespace

@@ -217,6 +217,8 @@ void let_loose_drift(World& w) {
 OuterWorks account_outside(World& w) {
   if (!w.ledger.enabled) return {};
   const Lap lap(w.phases, Phase::ledger);
+  collect_rows(w, w.end_walls.rows);
+  collect_rows(w, w.tool.rows);
   return works_from_outside(w);
 }
 
@@ -227,20 +229,15 @@ void move_platens(World& w) {
 
 void integrate(World& w, const OuterWorks& outer) {
   const Lap lap(w.phases, Phase::integrate);
-  ParticleTable& p = w.particles;
+  const ParticleTable& p = w.particles;
   const Motion motion = motion_of(w);
   const GlobalDamping& damping = w.options.global_damping;
-  const Rows free = w.partition.owned(0, p.free), lower = w.partition.owned(p.free, w.first_top),
-             upper = w.partition.owned(w.first_top, p.size);
-  StepWork work;
-  if (w.ledger.enabled)
-    work = integrate_and_book(w, motion);
-  else
-    for_rows(free.last - free.first, w.options.threads, [&](std::size_t first, std::size_t last) {
-      w.integrate_free(motion, free.first + first, free.first + last, w.dt, damping);
-    });
+  const Rows lower = w.partition.owned(p.free, w.first_top), upper = w.partition.owned(w.first_top, p.size);
+  const StepWork work = move_free(w);
   integrate_held(motion, lower.first, lower.last, w.dt, damping, {w.platens.velocity[0], !w.platens.rough});
   integrate_held(motion, upper.first, upper.last, w.dt, damping, {w.platens.velocity[1], !w.platens.rough});
+  record_motion(w, work.events);
+  w.watch.reading = work.gauge - w.watch.reference;
   if (w.ledger.enabled) enter_step(w, work, outer);
 }
 
@@ -271,7 +268,6 @@ void advance(World& w) {
   move_platens(w);
   let_loose_drift(w);
   integrate(w, account_outside(w));
-  record_motion(w);
   turn(w);
   start_halo_exchange(w);
   w.time += w.dt;

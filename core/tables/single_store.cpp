@@ -114,7 +114,7 @@ void fill_motion(SingleStore& s, const ParticleTable& p) {
     put(r.anchor, p.anchor[row], coarse_unit(q));
     put_spin(r, p, row, q, s.dt);
     put_fine_place(r, place, q);
-    if (is_far(s, p, row)) s.moved_far.push_back(static_cast<Row>(row));
+    if (is_far(s, row)) s.moved_far.push_back(static_cast<Row>(row));
   }
 }
 
@@ -242,10 +242,9 @@ void moves_to_table(const SingleStore& s, ParticleTable& p) {
   }
 }
 
-bool is_far(const SingleStore& s, const ParticleTable& p, std::size_t row) {
-  const Vec3 place = (1.0 / s.quanta.length) * (p.position[row] - s.quanta.origin - p.anchor[row]);
-  return !(std::abs(place.x) <= far_place && std::abs(place.y) <= far_place &&
-           std::abs(place.z) <= far_place);
+bool is_far(const SingleStore& s, std::size_t row) {
+  const auto& place = s.motion[row].place;
+  return std::any_of(place, place + 3, [](std::int32_t x) { return (x ^ (x >> 31)) >= far_place; });
 }
 
 void renew_anchors(SingleStore& s, ParticleTable& p, const BondTable& b) {

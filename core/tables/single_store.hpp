@@ -69,7 +69,7 @@ void history_to_table(const SingleStore& store, std::size_t first, std::size_t l
 void moves_to_table(const SingleStore& store, ParticleTable& particles);
 
 /// Whether a particle has moved far from its anchor.
-bool is_far(const SingleStore& store, const ParticleTable& particles, std::size_t row);
+bool is_far(const SingleStore& store, std::size_t row);
 
 /// Displacements of those that have moved far count from where they are now: no place changes, and
 /// stretches by no more than a float's last bit. Broken bonds whose ends are far apart rest until

@@ -101,13 +101,16 @@ double stored_energy(const World& w, double back) {
   const BondTable& b = w.bonds;
   const bool coupled = w.features.criterion == Criterion::coupled;
   const BondEnergyIn in = bond_energy_in(w, back);
+  const SingleEnergyIn in_single = single_energy_in(w, back);
   const double sum =
       rolling_energy(w, w.bonds) + with_laws(w.laws, b.law, [&](const auto& law_of) {
         return sum_pair_ranges(
             w.partition, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
               // the quick way knows k_n and one k_s/k_n alone
               const bool each = w.laws.size() > 1 || unloads_elsewhere(law_of(0));
-              double energy = each ? 0.0 : w.undamaged_energy(in, first, last);
+              double energy = each               ? 0.0
+                              : w.single.empty() ? w.undamaged_energy(in, first, last)
+                                                 : w.single_energy(in_single, first, last);
               if (b.damage_normal.empty() && !each) return energy;
               for (std::size_t k = first; k < last; ++k)
                 if (each || b.damage_normal[k] > 0.0 || b.damage_shear[k] > 0.0)

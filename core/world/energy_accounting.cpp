@@ -68,6 +68,14 @@ StepWork work_on_held(const World& w, std::size_t row) {
   return s;
 }
 
+/// A row of a platen that is about to move, in gauges: only where specimens are short.
+Vec3 gauge_of_held(const World& w, std::size_t row) {
+  if (w.watch.weights.empty() || w.watch.weights[row] == Vec3{}) return {};
+  const Vec3 &weight = w.watch.weights[row],
+             x = w.particles.position[row] + w.dt * braked_motion(w, row).after;
+  return {weight.x * x.x, weight.y * x.y, weight.z * x.z};
+}
+
 /// J, of damage in the normal direction, a function of the state. (B52)
 double normal_damage(const World& w) {
   if (!w.features.breakage || w.features.criterion == Criterion::coupled) return 0.0;
@@ -139,13 +147,22 @@ OuterWorks works_from_outside(const World& w) {
   return outer;
 }
 
-StepWork integrate_and_book(World& w, const Motion& motion) {
+StepWork move_free(World& w) {
+  const Motion motion = motion_of(w);
+  const GlobalDamping& damping = w.options.global_damping;
+  const bool booked = w.ledger.enabled, single = !w.single.empty();
+  const RecordedMotion records = single ? recorded_motion(w) : RecordedMotion{};
+  const CollectedSums sums = single ? collected_sums(w) : CollectedSums{};
   std::vector<StepWork> blocks;
   return sum_particle_ranges(
       w.partition, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
         const std::size_t free = std::clamp(w.particles.free, first, last);
-        StepWork sum{w.integrate_booked(motion, first, free, w.dt, w.options.global_damping)};
-        for (std::size_t row = free; row < last; ++row) sum += work_on_held(w, row);
+        StepWork sum{single ? w.integrate_single(motion, records, sums, first, free, w.dt, damping, booked)
+                            : w.integrate_free(motion, first, free, w.dt, damping, booked)};
+        for (std::size_t row = free; row < last; ++row) {
+          if (booked) sum += work_on_held(w, row);
+          sum.gauge += gauge_of_held(w, row);
+        }
         return sum;
       });
 }

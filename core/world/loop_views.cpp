@@ -30,11 +30,23 @@ BondEnergyIn bond_energy_in(const World& w, double back) {
           .shear_ratio = w.shear_ratio.front()};
 }
 
+SingleEnergyIn single_energy_in(const World& w, double back) {
+  const SingleStore& s = w.single;
+  return {.bonds = s.bonds,
+          .rare = s.rare,
+          .motion = s.motion,
+          .length = s.quanta.length,
+          .force = s.quanta.force,
+          .shear_ratio = w.shear_ratio.front(),
+          .before_last_move = back != 0.0};
+}
+
 Motion motion_of(World& w) {
   ParticleTable& p = w.particles;
-  return {p.position, p.velocity,        p.spin,
-          p.force,    p.torque,          p.mass,
-          p.radius,   inertia_factor(w), w.options.features.rotation};
+  return {p.position,     p.velocity,        p.spin,
+          p.force,        p.torque,          p.mass,
+          p.radius,       inertia_factor(w), w.options.features.rotation,
+          w.watch.weights};
 }
 
 BondPassHistory bond_pass_history(World& w) {
@@ -68,7 +80,6 @@ RecordedMotion recorded_motion(World& w) {
   return {.position = p.position,
           .velocity = p.velocity,
           .spin = p.spin,
-          .anchor = p.anchor,
           .radius = p.radius,
           .records = w.single.motion,
           .origin = w.single.quanta.origin,

@@ -16,6 +16,10 @@ CollectedSums collected_sums(World& world);
 /// What the energy of undamaged bonds reads; places as of `back` seconds ago.
 BondEnergyIn bond_energy_in(const World& world, double back);
 
+/// The same in single precision.
+/// @param back  s, 0 or the last step
+SingleEnergyIn single_energy_in(const World& world, double back);
+
 /// Views of all rows of the particles, for integration.
 Motion motion_of(World& world);
 

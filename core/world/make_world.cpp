@@ -118,10 +118,11 @@ World make_world(const Assembly& assembly, const Material& material, const AreaF
     w.single_pass = single_pass_for(w.laws.front(), w.features, options.instruction_set);
   else
     w.bond_pass = bond_pass_for(w.laws.front(), w.features, options.instruction_set, kind);
+  w.integrate_single = integrate_single_for(options.instruction_set);
   w.refresh_records = refresh_records_for(options.instruction_set);
+  w.single_energy = single_energy_for(options.instruction_set);
   w.collect_sums = collect_sums_for(options.instruction_set);
   w.integrate_free = integrate_free_for(options.instruction_set);
-  w.integrate_booked = integrate_booked_for(options.instruction_set);
   w.undamaged_energy = undamaged_energy_for(options.instruction_set);
   w.confinement.current = options.current_surface;
   w.confinement.impedance = std::sqrt(material.young_modulus * material.density);

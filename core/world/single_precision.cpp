@@ -4,22 +4,16 @@
 #include <atomic>
 
 #include "core/base/threads.hpp"
+#include "core/boundary/loose_surface.hpp"
 #include "core/world/loop_views.hpp"
 
 namespace breccia {
 namespace {
 
-/// Records of rows [first, last).
-unsigned refresh(World& w, std::size_t first, std::size_t last) {
-  const RecordedMotion motion = recorded_motion(w);
-  std::atomic<unsigned> events = 0;
-  for_rows(last - first, w.options.threads, [&](std::size_t from, std::size_t to) {
-    events |= w.refresh_records(motion, first + from, first + to, w.dt);
-  });
-  if (events & place_is_far)
-    for (std::size_t row = first; row < last; ++row)
-      if (is_far(w.single, w.particles, row)) w.single.moved_far.push_back(static_cast<Row>(row));
-  return events;
+/// Those of a range that have moved far.
+void note_far(World& w, std::size_t first, std::size_t last) {
+  for (std::size_t row = first; row < last; ++row)
+    if (is_far(w.single, row)) w.single.moved_far.push_back(static_cast<Row>(row));
 }
 
 }  // namespace
@@ -72,21 +66,31 @@ void collect_single(World& w) {
       from = {};
     }
   }
+  const Rows mine = w.partition.owned(), held = looks_at_all(w.confinement, w.step)
+                                                    ? mine
+                                                    : w.partition.owned(w.particles.free, w.particles.size);
   const CollectedSums sums = collected_sums(w);
-  const Rows mine = w.partition.owned();
-  for_rows(mine.last - mine.first, w.options.threads, [&](std::size_t first, std::size_t last) {
-    w.collect_sums(sums, mine.first + first, mine.first + last);
+  for_rows(held.last - held.first, w.options.threads, [&](std::size_t first, std::size_t last) {
+    w.collect_sums(sums, held.first + first, held.first + last);
   });
+  if (w.confinement.rigid || w.confinement.acts()) collect_rows(w, w.confinement.rows);
   // what was added to the others' particles, they add themselves
   for (const Neighbour& n : w.partition.neighbours)
     for (const Row row : n.receive) s.sums[row] = {};
 }
 
-void record_motion(World& w) {
+void collect_rows(World& w, std::span<const Row> rows) {
   if (w.single.empty()) return;
-  const Lap lap(w.phases, Phase::integrate);
-  const Rows mine = w.partition.owned();
-  w.single.events |= refresh(w, mine.first, mine.last);
+  const CollectedSums sums = collected_sums(w);
+  for_owned_entries(w.partition, rows, [&](std::size_t k) { w.collect_sums(sums, rows[k], rows[k] + 1); });
+}
+
+void record_motion(World& w, unsigned events) {
+  if (w.single.empty()) return;
+  const Rows held = w.partition.owned(w.particles.free, w.particles.size), mine = w.partition.owned();
+  events |= w.refresh_records(recorded_motion(w), held.first, held.last, w.dt);
+  if (events & place_is_far) note_far(w, mine.first, mine.last);
+  w.single.events |= events;
   w.single.ghosts_are_current = false;
 }
 
@@ -99,8 +103,10 @@ void renew_far(World& w) {
 void record_ghosts(World& w) {
   if (w.single.empty() || w.single.ghosts_are_current) return;
   // what happens to them their owners report
+  const RecordedMotion motion = recorded_motion(w);
   for (const Neighbour& n : w.partition.neighbours)
-    for (const Row row : n.receive) refresh(w, row, row + 1);
+    for (const Row row : n.receive)
+      if (w.refresh_records(motion, row, row + 1, w.dt) & place_is_far) note_far(w, row, row + 1);
   w.single.ghosts_are_current = true;
 }
 

@@ -24,11 +24,16 @@ std::array<bool, 4> events_of_all(const World& world);
 using SingleRange = std::function<void(int, std::size_t, std::size_t, BreakNotes*)>;
 void pass_in_single(World& world, const std::function<void(const SingleRange&)>& for_bonds);
 
-/// The sums become forces of particles.
+/// The sums become forces of those particles that somebody looks at before they move, which are
+/// held or under pressure; of the others they stay sums until then.
 void collect_single(World& world);
 
+/// The same for more of them. Nothing in double precision.
+/// @param rows  rising
+void collect_rows(World& world, std::span<const Row> rows);
+
 /// After the particles of this rank have moved; those of others, once they have come.
-void record_motion(World& world);
+void record_motion(World& world, unsigned events);
 void record_ghosts(World& world);
 
 /// Anchors of particles that have moved far, before the next pass over their bonds.

@@ -11,6 +11,7 @@
 #include "core/boundary/tool.hpp"
 #include "core/elastic/area_factor.hpp"
 #include "core/elastic/dashpots.hpp"
+#include "core/elastic/gauges.hpp"
 #include "core/elastic/mass_scaling.hpp"
 #include "core/elastic/step_monitor.hpp"
 #include "core/ranks/partition.hpp"
@@ -63,13 +64,15 @@ struct World {
   EnergyLedger ledger;
   Dashpots dashpots;
   StepMonitor step_monitor;
+  Watch watch;  ///< gauges that are read while particles move
   MassScaling mass_scaling;
   BondPass bond_pass = nullptr;
   SinglePass single_pass = nullptr;
+  IntegrateSingle integrate_single = nullptr;
   RefreshRecords refresh_records = nullptr;
   CollectSums collect_sums = nullptr;
+  SingleEnergy single_energy = nullptr;
   IntegrateFree integrate_free = nullptr;
-  IntegrateBooked integrate_booked = nullptr;
   UndamagedEnergy undamaged_energy = nullptr;
   Phases phases;
 };

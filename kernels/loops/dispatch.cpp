@@ -14,20 +14,17 @@ namespace breccia {
 
 namespace x86_64 {
 extern const std::array<BondPass, kernel_list.size()> passes;
-void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
-MotionWork integrate_booked(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+Integrated integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&, bool);
 double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
 }  // namespace x86_64
 namespace x86_64_v3 {
 extern const std::array<BondPass, kernel_list.size()> passes;
-void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
-MotionWork integrate_booked(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+Integrated integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&, bool);
 double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
 }  // namespace x86_64_v3
 namespace x86_64_v4 {
 extern const std::array<BondPass, kernel_list.size()> passes;
-void integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
-MotionWork integrate_booked(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&);
+Integrated integrate_free(const Motion&, std::size_t, std::size_t, double, const GlobalDamping&, bool);
 double undamaged_energy(const BondEnergyIn&, std::size_t, std::size_t);
 }  // namespace x86_64_v4
 
@@ -85,11 +82,6 @@ InstructionSet best_instruction_set() {
 IntegrateFree integrate_free_for(InstructionSet set) {
   return built_for<IntegrateFree>(set, x86_64::integrate_free, x86_64_v3::integrate_free,
                                   x86_64_v4::integrate_free);
-}
-
-IntegrateBooked integrate_booked_for(InstructionSet set) {
-  return built_for<IntegrateBooked>(set, x86_64::integrate_booked, x86_64_v3::integrate_booked,
-                                    x86_64_v4::integrate_booked);
 }
 
 UndamagedEnergy undamaged_energy_for(InstructionSet set) {

@@ -30,14 +30,10 @@ struct Motion {
   Strided<Vec3> position, velocity, spin;  ///< spin is empty where nothing spins
   Strided<Vec3> force, torque;             ///< read, then zeroed for the next step
   std::span<const double> mass, radius;
-  double inertia_factor = 0.4;  ///< I = factor m r^2
-  bool spins = true;            ///< false: the scene has no rotation, spins stay zero
+  double inertia_factor = 0.4;               ///< I = factor m r^2
+  bool spins = true;                         ///< false: the scene has no rotation, spins stay zero
+  std::span<const Vec3> gauge_weights = {};  ///< 1/m, by row; empty: nobody reads gauges
 };
-
-/// Kick and drift of rows [first, last) that move freely.
-using IntegrateFree = void (*)(const Motion& m, std::size_t first, std::size_t last, double dt,
-                               const GlobalDamping& damping);
-IntegrateFree integrate_free_for(InstructionSet set);
 
 /// J, of kicks: kinetic energy between the velocities before and after them, and what global
 /// damping takes over the half steps before and after (B48) (B56).
@@ -45,10 +41,17 @@ struct MotionWork {
   double kinetic = 0, motion_this = 0, motion_next = 0, spin_this = 0, spin_next = 0;
 };
 
-/// The same, and what the kicks did.
-using IntegrateBooked = MotionWork (*)(const Motion& m, std::size_t first, std::size_t last, double dt,
-                                       const GlobalDamping& damping);
-IntegrateBooked integrate_booked_for(InstructionSet set);
+/// What comes of moving rows.
+struct Integrated : MotionWork {  ///< zeros where nothing is booked
+  Vec3 gauge;                     ///< 1, sum of gauge weights times new positions, by component
+  unsigned events = 0;            ///< of single precision: SingleEvent bits
+};
+
+/// Kick and drift of rows [first, last) that move freely.
+/// @param booked  whether to work out what the kicks did
+using IntegrateFree = Integrated (*)(const Motion& m, std::size_t first, std::size_t last, double dt,
+                                     const GlobalDamping& damping, bool booked);
+IntegrateFree integrate_free_for(InstructionSet set);
 
 /// Motion that a body's rows share: z is prescribed; x and y too, unless they are free. (B64)
 struct HeldMotion {

@@ -78,9 +78,10 @@ struct SingleTargets {
   bool atomic = false;  ///< a row with the top bit set is one that other ranges touch too
 };
 
-/// Displacement from its anchor, in quanta, beyond which a particle gets another one; of one step,
-/// in 1/4 quantum, beyond which records cannot tell it.
-inline constexpr double far_place = 0x1p29, lost_motion = 0x1p30;
+/// Displacement from its anchor, in quanta, from which on a particle gets another one; places from
+/// the origin, in quanta, and displacements of one step, in 1/4 quantum, that records cannot tell.
+inline constexpr std::int32_t far_place = 1 << 29;
+inline constexpr double lost_place = 0x1p48, lost_motion = 0x1p30;
 
 struct SinglePassIn {
   std::span<const BondLaw> laws;  ///< in the loop's units
@@ -107,10 +108,22 @@ using SinglePass = unsigned (*)(const SinglePassIn&, std::size_t first, std::siz
 /// @throws std::invalid_argument
 SinglePass single_pass_for(const BondLaw& law, const Features& built, InstructionSet set);
 
+struct SingleEnergyIn {
+  std::span<const BondBlock> bonds;
+  std::span<const RareBlock> rare;
+  std::span<const MotionRecord> motion;
+  double length = 1, force = 1;   ///< m, N, quanta
+  double shear_ratio = 0;         ///< k_s/k_n of all bonds
+  bool before_last_move = false;  ///< with places as they were before the last step
+};
+
+/// J, stored by the undamaged ones of bonds [first, last).
+using SingleEnergy = double (*)(const SingleEnergyIn&, std::size_t first, std::size_t last);
+SingleEnergy single_energy_for(InstructionSet set);
+
 /// Places in doubles and records of them.
 struct RecordedMotion {
   Strided<const Vec3> position, velocity, spin;  ///< spin is empty where nothing spins
-  std::span<const Vec3> anchor;                  ///< m, from the origin
   std::span<const double> radius;
   std::span<MotionRecord> records;
   Vec3 origin;
@@ -128,6 +141,13 @@ struct CollectedSums {
   std::span<const double> radius;
   double force_quantum = 1;  ///< N
 };
+
+/// Kick and drift of rows [first, last) that move freely, under their forces and the bonds' sums,
+/// and records of where they are then: one way through all of it.
+using IntegrateSingle = Integrated (*)(const Motion&, const RecordedMotion&, const CollectedSums&,
+                                       std::size_t first, std::size_t last, double dt, const GlobalDamping&,
+                                       bool booked);
+IntegrateSingle integrate_single_for(InstructionSet set);
 
 /// Adds the sums of rows [first, last) to the particles' forces.
 using CollectSums = void (*)(const CollectedSums&, std::size_t first, std::size_t last);

@@ -204,7 +204,8 @@ private:
   }
 }
 
-[[gnu::always_inline]] inline EndColumns ends_of(const SinglePassIn& in, std::size_t b) {
+template <class In>
+[[gnu::always_inline]] inline EndColumns ends_of(const In& in, std::size_t b) {
   const BondBlock& block = in.bonds[b / bond_block];
   const Index *const near = block.near + b % bond_block, *const far = block.far + b % bond_block;
   const char* const motion = reinterpret_cast<const char*>(in.motion.data());

@@ -2,7 +2,7 @@
 // Compiled once per instruction set.
 #include <bit>
 
-#include "kernels/math/four.hpp"
+#include "kernels/loops/kick.hpp"
 #include "kernels/single/single.hpp"
 
 namespace breccia::BRECCIA_ISA {
@@ -23,33 +23,91 @@ using FourLongs [[gnu::vector_size(32)]] = std::int64_t;
   return *reinterpret_cast<FourInts*>(&row);
 }
 
+/// Writes a particle's record; looks at how far and how fast it is.
+class Recorder {
+public:
+  Recorder(const RecordedMotion& motion, double dt)
+      : m_(motion),
+        per_quantum_(1.0 / motion.length),
+        fine_step_(fine_parts * dt * per_quantum_),
+        origin_{motion.origin.x, motion.origin.y, motion.origin.z, 0.0} {}
+
+  [[gnu::always_inline]] void record(std::size_t row, const Four& position, const Four& velocity,
+                                     const Four& spin) {
+    MotionRecord& r = m_.records[row];
+    const Four x = per_quantum_ * (position - origin_), motion = fine_step_ * velocity;
+    lost_ |= (FourLongs)(x * x > Four{} + lost_place * lost_place) |
+             (FourLongs)(motion * motion > Four{} + lost_motion * lost_motion);
+    FourInts place = nearest(x) - coarse_parts * ints(r.anchor);
+    displaced_ |= place ^ (place >> 31);
+    const FourInts fine = nearest(fine_parts * x), before{r.place[3], r.moved[3], r.spun[3], 0};
+    FourInts moved = fine - before, spun = nearest((fine_step_ * m_.radius[row]) * spin);
+    place[3] = fine[0], moved[3] = fine[1], spun[3] = fine[2];
+    ints(r.place) = place, ints(r.moved) = moved, ints(r.spun) = spun;
+  }
+  unsigned events() const {
+    unsigned events = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (displaced_[k] >= far_place) events |= place_is_far;
+      if (lost_[k]) events |= motion_is_lost;
+    }
+    return events;
+  }
+
+private:
+  const RecordedMotion m_;
+  const double per_quantum_, fine_step_;
+  const Four origin_;
+  FourLongs lost_{};
+  FourInts displaced_{};  ///< has every bit that a displacement has
+};
+
+/// Views by value: what is stored through a vector could be one of them, for all a compiler knows
+/// of a reference, and it would read them again for every row.
+template <bool spins, bool viscous, bool booked>
+Integrated kick_drift_and_record(const Motion m, const RecordedMotion to, const CollectedSums from,
+                                 std::size_t first, std::size_t last, double dt,
+                                 const GlobalDamping damping) {
+  RangeSums<booked> sums;
+  Recorder recorder(to, dt);
+  for (std::size_t row = first; row < last; ++row) {
+    FourInts &bonds_force = ints(from.sums[row].force), &bonds_moment = ints(from.sums[row].moment);
+    const Four force = four(m.force[row]) + from.force_quantum * __builtin_convertvector(bonds_force, Four);
+    Four torque{};
+    if constexpr (spins)
+      torque = four(m.torque[row]) +
+               (from.force_quantum * from.radius[row]) * __builtin_convertvector(bonds_moment, Four);
+    bonds_force = bonds_moment = FourInts{};
+    const Kicked k = kicked<spins, viscous>(m, row, force, torque, dt, damping);
+    sums.add(k);
+    const Four position = four(m.position[row]) + dt * k.new_velocity;  // (P7)
+    sums.read_gauges(m, row, position);
+    four(m.velocity[row]) = k.new_velocity;
+    four(m.position[row]) = position;
+    if constexpr (spins) four(m.spin[row]) = k.new_spin;
+    four(m.force[row]) = Four{};
+    if (!m.torque.empty()) four(m.torque[row]) = Four{};
+    recorder.record(row, position, k.new_velocity, k.new_spin);
+  }
+  return sums.of_step(dt, recorder.events());
+}
+
 }  // namespace
 
+Integrated integrate_single(const Motion& m, const RecordedMotion& to, const CollectedSums& from,
+                            std::size_t first, std::size_t last, double dt, const GlobalDamping& damping,
+                            bool booked) {
+  return for_scene(!m.spin.empty() && m.spins, damping.viscous, booked, [&]<bool s, bool v, bool b>() {
+    return kick_drift_and_record<s, v, b>(m, to, from, first, last, dt, damping);
+  });
+}
+
 unsigned refresh_records(const RecordedMotion& m, std::size_t first, std::size_t last, double dt) {
-  const double per_quantum = 1.0 / m.length, spin_unit = fine_parts * dt * per_quantum;
-  const Four origin{m.origin.x, m.origin.y, m.origin.z, 0.0};
-  const double motion_unit = fine_parts * dt * per_quantum;
-  Four farthest{}, fastest{};
-  for (std::size_t row = first; row < last; ++row) {
-    MotionRecord& r = m.records[row];
-    const Four place = per_quantum * ((four(m.position[row]) - origin) - four(m.anchor[row]));
-    const Four motion = motion_unit * four(m.velocity[row]);
-    farthest = farthest > place * place ? farthest : place * place;
-    fastest = fastest > motion * motion ? fastest : motion * motion;
-    const FourInts anchor = ints(r.anchor);
-    const FourInts fine = nearest(fine_parts * place) + fine_parts * coarse_parts * anchor;
-    const FourInts before{r.place[3], r.moved[3], r.spun[3], 0};
-    FourInts now = nearest(place), moved = fine - before, spun{};
-    if (!m.spin.empty()) spun = nearest((spin_unit * m.radius[row]) * four(m.spin[row]));
-    now[3] = fine[0], moved[3] = fine[1], spun[3] = fine[2];
-    ints(r.place) = now, ints(r.moved) = moved, ints(r.spun) = spun;
-  }
-  unsigned events = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (!(farthest[k] <= far_place * far_place)) events |= place_is_far;
-    if (!(fastest[k] <= lost_motion * lost_motion)) events |= motion_is_lost;
-  }
-  return events;
+  Recorder recorder(m, dt);
+  for (std::size_t row = first; row < last; ++row)
+    recorder.record(row, four(m.position[row]), four(m.velocity[row]),
+                    m.spin.empty() ? Four{} : four(m.spin[row]));
+  return recorder.events();
 }
 
 void collect_sums(const CollectedSums& c, std::size_t first, std::size_t last) {

@@ -45,13 +45,13 @@ World world_of(const std::vector<Ball>& balls, const ref::Parameters& p) {
                     scene::factor(p), scene::options(p));
 }
 
-struct Watch {
+struct Witness {
   int missed = 0, met = 0, bonded_contacts = 0;
 };
 
 /// Advances and compares what overlaps when forces are computed with what is on the list then.
-Watch watch(World& w, int steps) {
-  Watch seen;
+Witness watch(World& w, int steps) {
+  Witness seen;
   const std::set<Ends> bonds = bonded(w);
   for (int k = 0; k < steps; ++k) {
     const std::vector<Vec3> x(w.particles.position.begin(), w.particles.position.end());
@@ -100,7 +100,7 @@ TEST_CASE(
   World w = world_of(balls, p);
   w.dt *= 0.2;
   w.neighbour_list.check_every = 40;  // too seldom for the fastest: the search has to see that
-  const Watch seen = watch(w, 4000);
+  const Witness seen = watch(w, 4000);
   CHECK(seen.met > 500);
   CHECK(seen.missed == 0);
   CHECK(w.neighbour_list.rebuilds > 3);
@@ -120,7 +120,7 @@ TEST_CASE(
   balls.push_back({24, 0.002, {0, 0.504, 0}, 99});
   World w = world_of(balls, p);
   REQUIRE(0.022 - 2 * 0.0098 > w.neighbour_list.skin);
-  const Watch seen = watch(w, int(0.9 / w.dt));
+  const Witness seen = watch(w, int(0.9 / w.dt));
   CHECK(seen.met > 100);
   CHECK(seen.missed == 0);
 }
@@ -133,7 +133,7 @@ TEST_CASE(
   const Assembly a = assemble(scene::small_packing(120), scene::small_cylinder(), {}, Features{}, 1);
   World w = make_world(a, scene::material_of(p), scene::factor(p), scene::options(p));
   scene::drive(w, 12, -12);
-  const Watch seen = watch(w, 800);
+  const Witness seen = watch(w, 800);
   CHECK(count_broken(w).tension + count_broken(w).shear > 20);
   CHECK(seen.met > 100);
   CHECK(seen.missed == 0);

@@ -1,0 +1,34 @@
+// What undamaged bonds store, from what the loop in single precision has of them. Compiled once per
+// instruction set.
+#include "kernels/single/single_loop.hpp"
+
+namespace breccia::BRECCIA_ISA {
+
+double single_energy(const SingleEnergyIn& in, std::size_t first, std::size_t last) {
+  const FloatLanes count([](auto lane) { return static_cast<float>(lane); });
+  const FloatLanes per_moved(1.0 / fine_parts), ratio(in.shear_ratio), none(0.0);
+  double total = 0.0;
+  for (std::size_t b = first / float_width * float_width; b < last; b += float_width) {
+    const BondBlock& block = in.bonds[b / bond_block];
+    const RareBlock& rare = in.rare[b / bond_block];
+    const auto lanes = [&](const float(&values)[bond_block]) {
+      return FloatLanes(FloatLanes::Register(values + b % bond_block, std::experimental::vector_aligned));
+    };
+    EndColumns ends = ends_of(in, b);
+    if (in.before_last_move) ends.place -= per_moved * ends.moved;
+    const FloatLanes elastic = motion_of(ends, none).longer - lanes(block.plastic);
+    const Vec<FloatLanes> shear{lanes(block.shear_x), lanes(block.shear_y), lanes(block.shear_z)};
+    const FloatLanes stiffness = lanes(block.stiffness);
+    FloatLanes twice = stiffness * elastic * elastic;
+    if (in.shear_ratio > 0.0) twice += dot(shear, shear) / (ratio * stiffness);
+    // a range of rows may begin and end within a batch
+    const FloatLanes from(static_cast<double>(first > b ? first - b : 0)),
+        to(static_cast<double>(std::min(last - b, float_width)));
+    const auto counts = stiffness > none && lanes(rare.damage_normal) == none &&
+                        lanes(rare.damage_shear) == none && count >= from && count < to;
+    total += sum_of_lanes(select(counts, twice, none));
+  }
+  return 0.5 * in.length * in.force * total;  // (B50)
+}
+
+}  // namespace breccia::BRECCIA_ISA
