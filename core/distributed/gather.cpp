@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "core/distributed/halo.hpp"
-#include "core/world/single_precision.hpp"
 #include "core/world/sync.hpp"
 
 namespace breccia {
@@ -75,15 +74,12 @@ World& gather_scalars(World& w) {
   World* whole = w.replica.get();
   const Ranks& ranks = w.partition.ranks;
   gather_ledger(ranks, w.ledger, whole ? &whole->ledger : nullptr);
-  if (w.options.precision == Precision::single) {
-    const auto happened = events_of_all(w);
-    for (unsigned k = 0; whole && k < 4; ++k) whole->single.events |= happened[k] ? 1u << k : 0u;
-  }
   std::vector<Vec3> push = gather_owned_entries<Vec3>(w.partition, w.confinement.rows, w.confinement.force);
   if (!whole) return w;
   whole->time = w.time;
   whole->step = w.step;
   whole->single.quanta = w.single.quanta;
+  whole->single.events = w.single.events;
   whole->single.renewals = w.single.renewals;
   whole->single.coarsenings = w.single.coarsenings;
   whole->dt = w.dt;

@@ -6,16 +6,13 @@
 namespace breccia {
 namespace {
 
-/// Steps between two looks: what is large at one look must not be lost before the next.
-constexpr std::uint64_t looked_at_every = 8;
-
 [[noreturn]] void refuse_wildness(const World& w, bool force) {
   const Quanta& q = w.single.quanta;
   if (force)
     fail<SimulationBroke>(
-        "run.precision = \"single\": the force of a bond grew beyond {:.3g} N within {} steps, more than its "
+        "run.precision = \"single\": the force of a bond grew beyond {:.3g} N in one step, more than its "
         "sums can hold; take a smaller time.safety, or run.precision = \"double\"",
-        2.0 * q.force_limit * q.force, looked_at_every);
+        4.0 * q.force_limit * q.force);
   fail<SimulationBroke>(
       "run.precision = \"single\": a sphere is faster than {:.3g} m/s, or farther than {:.3g} m from the "
       "specimen, more than its record can hold; take a smaller time.safety, or run.precision = \"double\"",
@@ -26,11 +23,9 @@ constexpr std::uint64_t looked_at_every = 8;
 
 void look_at_single(World& w) {
   SingleStore& s = w.single;
-  if (w.options.precision != Precision::single || w.step % looked_at_every != 0) return;
-  const auto [large, lost, far, too_fast] = events_of_all(w);
-  if (lost) refuse_wildness(w, true);
-  if (too_fast) refuse_wildness(w, false);
-  if (large) coarsen_force(s, w.laws);
+  if (s.events & force_is_lost) refuse_wildness(w, true);
+  if (s.events & motion_is_lost) refuse_wildness(w, false);
+  if (s.events & force_is_large) coarsen_force(s, w.laws);
   s.events = 0;
 }
 

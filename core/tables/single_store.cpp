@@ -170,9 +170,10 @@ Quanta choose_quanta(const ParticleTable& p, const BondTable& b) {
   const double mean = sum / static_cast<double>(std::max<std::size_t>(1, b.size));
   q.length = power_of_two_above(std::max({mean / 32.0, longest / 128.0, 1e-30})) * 0x1p-31;
   const unsigned most = b.size == 0 ? 1 : *std::max_element(bonds_of.begin(), bonds_of.end());
-  // twice the limit from each bond of the particle that has most, and a quarter more in its moments
-  q.force_limit = 0x1p31 / (2.0 * 1.25 * most);
-  constexpr double strain = 0.005;  // which few bonds reach before they break or yield
+  // four times the limit from each bond of the particle that has most, and a quarter more in its
+  // moments
+  q.force_limit = 0x1p31 / (4.0 * 1.25 * most);
+  constexpr double strain = 0.002;  // to begin with: the finer, the less noise where forces are small
   q.force = power_of_two_above(std::max(strongest * strain / q.force_limit, 1e-30));
   Vec3 low, high;
   for (std::size_t row = 0; row < p.size; ++row) {

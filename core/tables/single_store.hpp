@@ -14,7 +14,7 @@ namespace breccia {
 struct Quanta {
   double length = 0;       ///< m, a power of two
   double force = 0;        ///< N, a power of two; coarser when forces ask for it
-  double force_limit = 0;  ///< of a component of a bond's force, in quanta: twice this fits all sums
+  double force_limit = 0;  ///< of a component of a bond's force, in quanta: four times this fits all sums
   Vec3 origin;             ///< m, that anchors count from
 };
 

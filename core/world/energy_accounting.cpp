@@ -153,12 +153,14 @@ StepWork move_free(World& w) {
   const bool booked = w.ledger.enabled, single = !w.single.empty();
   const RecordedMotion records = single ? recorded_motion(w) : RecordedMotion{};
   const CollectedSums sums = single ? collected_sums(w) : CollectedSums{};
+  const Rows mine = w.partition.owned();
   std::vector<StepWork> blocks;
   return sum_particle_ranges(
       w.partition, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
         const std::size_t free = std::clamp(w.particles.free, first, last);
         StepWork sum{single ? w.integrate_single(motion, records, sums, first, free, w.dt, damping, booked)
                             : w.integrate_free(motion, first, free, w.dt, damping, booked)};
+        if (first == mine.first) sum.events |= w.single.events;  // of the pass over this rank's bonds
         for (std::size_t row = free; row < last; ++row) {
           if (booked) sum += work_on_held(w, row);
           sum.gauge += gauge_of_held(w, row);

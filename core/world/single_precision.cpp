@@ -1,6 +1,5 @@
 #include "core/world/single_precision.hpp"
 
-#include <array>
 #include <atomic>
 
 #include "core/base/threads.hpp"
@@ -35,14 +34,6 @@ void forget_blocks(SingleStore& s) {
   const SingleStore before = std::move(s);
   s = {};
   s.quanta = before.quanta, s.renewals = before.renewals, s.coarsenings = before.coarsenings;
-}
-
-std::array<bool, 4> events_of_all(const World& w) {
-  const unsigned mine = w.single.events;
-  std::array<double, 4> found;
-  for (unsigned k = 0; k < 4; ++k) found[k] = mine >> k & 1u ? 1.0 : 0.0;
-  if (!w.partition.ranks.alone()) all_reduce_max(w.partition.ranks, found);
-  return {found[0] > 0.0, found[1] > 0.0, found[2] > 0.0, found[3] > 0.0};
 }
 
 void pass_in_single(World& w, const std::function<void(const SingleRange&)>& for_bonds) {
@@ -88,9 +79,9 @@ void collect_rows(World& w, std::span<const Row> rows) {
 void record_motion(World& w, unsigned events) {
   if (w.single.empty()) return;
   const Rows held = w.partition.owned(w.particles.free, w.particles.size), mine = w.partition.owned();
+  w.single.events = events;
   events |= w.refresh_records(recorded_motion(w), held.first, held.last, w.dt);
   if (events & place_is_far) note_far(w, mine.first, mine.last);
-  w.single.events |= events;
   w.single.ghosts_are_current = false;
 }
 

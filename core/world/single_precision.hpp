@@ -1,7 +1,6 @@
 // A world in single precision: the loop's records and sums, and the particles in doubles, follow
 // each other. Nothing here does anything in double precision. docs/model.md, "Single precision".
 #pragma once
-#include <array>
 #include <functional>
 
 #include "core/world/world.hpp"
@@ -17,9 +16,6 @@ void fill_single(World& world);
 /// What only a rank that runs bonds needs.
 void forget_blocks(SingleStore& store);
 
-/// Whether each SingleEvent, in order of its bits, has happened on any rank. To be entered by all.
-std::array<bool, 4> events_of_all(const World& world);
-
 /// Passes over bonds; for_bonds(pass) calls pass(range, first, last, notes).
 using SingleRange = std::function<void(int, std::size_t, std::size_t, BreakNotes*)>;
 void pass_in_single(World& world, const std::function<void(const SingleRange&)>& for_bonds);
@@ -33,6 +29,7 @@ void collect_single(World& world);
 void collect_rows(World& world, std::span<const Row> rows);
 
 /// After the particles of this rank have moved; those of others, once they have come.
+/// @param events  SingleEvent bits of all ranks, of this step
 void record_motion(World& world, unsigned events);
 void record_ghosts(World& world);
 

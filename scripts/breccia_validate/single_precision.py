@@ -9,9 +9,9 @@ from .study import Case, Outcome, Page, Row, Study
 COUNT = 20
 TESTS = {  # program, case, what else; speeds in m/s
     "ucs": ("ucs", "failure-pack.toml", 0.1, ("specimen.pack.spheres=2000", "test.stop_after_peak=0.3")),
-    "triaxial": ("triaxial", "failure-pack.toml", 0.1, ("specimen.pack.spheres=2000", 'test.confinement=["9 MPa"]', "test.stop_after_peak=0.3")),
+    "triaxial": ("triaxial", "failure-pack.toml", 0.2, ("specimen.pack.spheres=1000", 'test.confinement=["9 MPa"]', "test.stop_after_peak=0.3")),
     "tension": ("tension", "concrete-tension.toml", 0.04, ("specimen.pack.spheres=2000",)),
-    "brazilian": ("bts", "concrete-bts.toml", 0.06, ("specimen.pack.spheres=4000",)),
+    "brazilian": ("bts", "concrete-bts.toml", 0.06, ("specimen.pack.spheres=3000",)),
 }
 NAMES = {"ucs": "unconfined compression", "triaxial": "triaxial at 9 MPa", "tension": "direct tension", "brazilian": "Brazilian test"}
 QUANTITIES = (("E, GPa", "young_modulus_Pa", 1e9, "{:.6f}"), ("peak, MPa", "peak_stress_Pa", MPA, "{:.3f}"),
