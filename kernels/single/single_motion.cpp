@@ -38,12 +38,16 @@ public:
     const Four x = per_quantum_ * (position - origin_), motion = fine_step_ * velocity;
     lost_ |= (FourLongs)(x * x > Four{} + lost_place * lost_place) |
              (FourLongs)(motion * motion > Four{} + lost_motion * lost_motion);
-    FourInts place = nearest(x) - coarse_parts * ints(r.anchor);
+    const FourInts place = nearest(x) - coarse_parts * ints(r.anchor);
     displaced_ |= place ^ (place >> 31);
-    const FourInts fine = nearest(fine_parts * x), before{r.place[3], r.moved[3], r.spun[3], 0};
-    FourInts moved = fine - before, spun = nearest((fine_step_ * m_.radius[row]) * spin);
-    place[3] = fine[0], moved[3] = fine[1], spun[3] = fine[2];
-    ints(r.place) = place, ints(r.moved) = moved, ints(r.spun) = spun;
+    // the fourth of each row: where the particle was, in 1/4 quantum, and where it is
+    const FourInts fine = nearest(fine_parts * x);
+    const FourInts xy = __builtin_shufflevector(ints(r.place), ints(r.moved), 3, 7, 3, 7),
+                   before = __builtin_shufflevector(xy, ints(r.spun), 0, 1, 7, 7);
+    const FourInts moved = fine - before, spun = nearest((fine_step_ * m_.radius[row]) * spin);
+    ints(r.place) = __builtin_shufflevector(place, fine, 0, 1, 2, 4);
+    ints(r.moved) = __builtin_shufflevector(moved, fine, 0, 1, 2, 5);
+    ints(r.spun) = __builtin_shufflevector(spun, fine, 0, 1, 2, 6);
   }
   unsigned events() const {
     unsigned events = 0;

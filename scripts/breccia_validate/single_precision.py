@@ -17,6 +17,7 @@ NAMES = {"ucs": "unconfined compression", "triaxial": "triaxial at 9 MPa", "tens
 QUANTITIES = (("E, GPa", "young_modulus_Pa", 1e9, "{:.6f}"), ("peak, MPa", "peak_stress_Pa", MPA, "{:.3f}"),
               ("strain at the peak, %", "strain_at_peak", 1e-2, "{:.4f}"), ("broken bonds", None, 1, "{:.0f}"))
 SMALLEST = 0.01  # chance of a difference as large, below which the two are called different
+SAME = 1e-5  # of the mean: what nobody measures, though runs in double that do not scatter at all can tell it
 SHUFFLES = 20000
 
 
@@ -63,12 +64,15 @@ def two_samples(results, _):
     rows = []
     for test, name in NAMES.items():
         for quantity, key, unit, number in QUANTITIES:
+            if test == "brazilian" and quantity.startswith("E,"):
+                continue  # a disc has none
             double, single = (values(results, precision, test, key) / unit for precision in ("double", "single"))
+            apart = abs(np.mean(single) / np.mean(double) - 1)
             of_means, of_spreads = chance(double, single, np.mean), chance(double, single, lambda x: np.std(x, ddof=1))
             told = lambda x: f"{number} ± {number}".format(np.mean(x), np.std(x, ddof=1))
-            rows.append(Row(f"{name}: {quantity}, double; single", f"{told(double)}; {told(single)}", target=f"chance of means, of spreads above {SMALLEST}",
-                            met=of_means > SMALLEST and of_spreads > SMALLEST))
-            rows.append(Row("— chance of a difference as large: means, spreads", f"{of_means:.3f}, {of_spreads:.3f}"))
+            rows.append(Row(f"{name}: {quantity}, double; single", f"{told(double)}; {told(single)}", target=f"chance of means, of spreads above {SMALLEST}, or means within {SAME:g}",
+                            met=bool((of_means > SMALLEST and of_spreads > SMALLEST) or apart < SAME)))
+            rows.append(Row("— chance of a difference as large: means, spreads; means apart by", f"{of_means:.3f}, {of_spreads:.3f}; {apart:.1e}"))
         same, count = same_order(results, test)
         rows.append(Row(f"{name}: cracks in the same order before the first that is not, of {count}", float(same), target="100", met=same >= min(100, count)))
         worst = {precision: max(abs(results[f"{test}-{precision}-{k}"].run()["energy_error"]) for k in range(COUNT)) for precision in ("double", "single")}
@@ -79,7 +83,10 @@ def two_samples(results, _):
 
 TEXT = f"""Each line: mean and standard deviation of {COUNT} runs whose platens differ by 1e-12 of their speed, in double and in single precision. The chance is
 that of a difference as large if both were of one kind, found by shuffling the runs ({SHUFFLES} times). Before the peak all runs are alike; beyond, which
-bond goes first is decided by round-off, in double as in single."""
+bond goes first is decided by round-off, in double as in single. What single precision adds is the quantum of force: rounded forces push at random, and
+non-viscous damping, which takes its sign from the motion, answers them, so that E comes out higher by some 1e-6 to 5e-5. Where double does not
+scatter at all (tension, the disc) any difference is told. Broken bonds after the peak of the cylinder differ by 2 %, more than chance: not
+understood; a finer quantum is the first thing to try. So double precision is the default."""
 
 PAGES = [
     Page("single-precision", "Single precision against double", "`run.precision`; \"Single precision\" in `docs/model.md`.", [
