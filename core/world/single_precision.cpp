@@ -9,6 +9,10 @@
 namespace breccia {
 namespace {
 
+std::int32_t wrapping_sum(std::int32_t a, std::int32_t b) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+}
+
 /// Those of a range that have moved far.
 void note_far(World& w, std::size_t first, std::size_t last) {
   for (std::size_t row = first; row < last; ++row)
@@ -53,7 +57,10 @@ void collect_single(World& w) {
     for (Index slot = plan.first_slot[k]; slot < plan.first_slot[k + 1]; ++slot) {
       IntegerSums& from = s.sums[plan.slots[slot]];
       // (B129)
-      for (int c = 0; c < 3; ++c) to.force[c] += from.force[c], to.moment[c] += from.moment[c];
+      for (int c = 0; c < 3; ++c) {
+        to.force[c] = wrapping_sum(to.force[c], from.force[c]);
+        to.moment[c] = wrapping_sum(to.moment[c], from.moment[c]);
+      }
       from = {};
     }
   }

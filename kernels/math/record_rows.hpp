@@ -13,7 +13,9 @@ namespace {
 
 inline constexpr std::size_t quads = float_width / 4;  // lanes of 128 bits in a register
 using Quads [[gnu::vector_size(4 * float_width)]] = long long;
-using IntRow [[gnu::vector_size(32), gnu::may_alias]] = std::int32_t;
+// unsigned, since they add up modulo 2^32
+using IntRow [[gnu::vector_size(32), gnu::may_alias]] = std::uint32_t;
+using Wrapping [[gnu::vector_size(4 * float_width), gnu::may_alias]] = std::uint32_t;
 
 // --- within lanes of 128 bits
 template <std::size_t... k>
@@ -83,16 +85,17 @@ struct EndColumns {
 
 template <std::size_t part>
 [[gnu::always_inline]] inline IntRegister against(const std::int32_t* lo, const std::int32_t* hi) {
-  const IntRegister l = *reinterpret_cast<const IntRegister*>(lo + part * float_width),
-                    h = *reinterpret_cast<const IntRegister*>(hi + part * float_width);
+  const Wrapping l = *reinterpret_cast<const Wrapping*>(lo + part * float_width),
+                 h = *reinterpret_cast<const Wrapping*>(hi + part * float_width);
 #if defined(__AVX512F__)
   return (IntRegister)_mm512_mask_add_epi32(_mm512_sub_epi32((__m512i)h, (__m512i)l), 0x0f00, (__m512i)h,
                                             (__m512i)l);
 #elif defined(__AVX2__)
-  if constexpr (part == 0) return h - l;
-  return h + (IntRegister)_mm256_sign_epi32((__m256i)l, _mm256_set_epi32(-1, -1, -1, -1, 1, 1, 1, 1));
+  if constexpr (part == 0) return (IntRegister)(h - l);
+  return (IntRegister)(h +
+                       (Wrapping)_mm256_sign_epi32((__m256i)l, _mm256_set_epi32(-1, -1, -1, -1, 1, 1, 1, 1)));
 #else
-  return part == 2 ? h + l : h - l;
+  return (IntRegister)(part == 2 ? h + l : h - l);
 #endif
 }
 
@@ -163,7 +166,8 @@ struct Quartet {
 #if defined(__AVX2__)
   return (IntRow)_mm256_sign_epi32((__m256i)row, _mm256_set_epi32(1, 1, 1, 1, -1, -1, -1, -1));
 #else
-  const IntRow turns{-1, -1, -1, -1, 0, 0, 0, 0};
+  constexpr std::uint32_t all = 0xffffffffu;
+  const IntRow turns{all, all, all, all, 0, 0, 0, 0};
   return (row ^ turns) - turns;
 #endif
 }

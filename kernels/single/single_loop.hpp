@@ -176,7 +176,8 @@ private:
       }
       auto* numbers = reinterpret_cast<std::int32_t*>(&to);
       for (int k = 0; k < 8; ++k)
-        if (k % 4 != 3) std::atomic_ref(numbers[k]).fetch_add(row[k], std::memory_order_relaxed);
+        if (k % 4 != 3)
+          std::atomic_ref(numbers[k]).fetch_add(static_cast<std::int32_t>(row[k]), std::memory_order_relaxed);
     };
     for (std::size_t lane = 0; lane < float_width; ++lane) {
       const IntRow row = rows_[place_of_lane(lane)];

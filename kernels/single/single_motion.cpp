@@ -9,6 +9,7 @@ namespace breccia::BRECCIA_ISA {
 namespace {
 
 using FourInts [[gnu::vector_size(16), gnu::may_alias]] = std::int32_t;
+using FourWrapping [[gnu::vector_size(16)]] = std::uint32_t;
 using FourLongs [[gnu::vector_size(32)]] = std::int64_t;
 
 /// The nearest integers, modulo 2^32: what is added puts them into the low bits of the mantissa.
@@ -21,6 +22,11 @@ using FourLongs [[gnu::vector_size(32)]] = std::int64_t;
 
 [[gnu::always_inline]] inline FourInts& ints(std::int32_t (&row)[4]) {
   return *reinterpret_cast<FourInts*>(&row);
+}
+
+/// a - factor b, modulo 2^32.
+[[gnu::always_inline]] inline FourInts less(const FourInts& a, const FourInts& b, std::uint32_t factor = 1) {
+  return (FourInts)((FourWrapping)a - factor * (FourWrapping)b);
 }
 
 /// Writes a particle's record; looks at how far and how fast it is.
@@ -38,13 +44,13 @@ public:
     const Four x = per_quantum_ * (position - origin_), motion = fine_step_ * velocity;
     lost_ |= (FourLongs)(x * x > Four{} + lost_place * lost_place) |
              (FourLongs)(motion * motion > Four{} + lost_motion * lost_motion);
-    const FourInts place = nearest(x) - coarse_parts * ints(r.anchor);
+    const FourInts place = less(nearest(x), ints(r.anchor), coarse_parts);
     displaced_ |= place ^ (place >> 31);
     // the fourth of each row: where the particle was, in 1/4 quantum, and where it is
     const FourInts fine = nearest(fine_parts * x);
     const FourInts xy = __builtin_shufflevector(ints(r.place), ints(r.moved), 3, 7, 3, 7),
                    before = __builtin_shufflevector(xy, ints(r.spun), 0, 1, 7, 7);
-    const FourInts moved = fine - before, spun = nearest((fine_step_ * m_.radius[row]) * spin);
+    const FourInts moved = less(fine, before), spun = nearest((fine_step_ * m_.radius[row]) * spin);
     ints(r.place) = __builtin_shufflevector(place, fine, 0, 1, 2, 4);
     ints(r.moved) = __builtin_shufflevector(moved, fine, 0, 1, 2, 5);
     ints(r.spun) = __builtin_shufflevector(spun, fine, 0, 1, 2, 6);
