@@ -1,7 +1,6 @@
 #include "core/stepping/look_at_single.hpp"
 
 #include "core/base/error.hpp"
-#include "core/world/single_precision.hpp"
 
 namespace breccia {
 namespace {

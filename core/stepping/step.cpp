@@ -80,15 +80,15 @@ void for_blocks(const World& w, int range, bool reaching, const Pass& pass) {
   }
 }
 
-/// Calls pass(range, first, last, notes) for all bonds of this rank, range by range.
+/// Calls pass(first, last, notes) for all bonds of this rank, range by range.
 template <class Pass>
 void for_bonds(World& w, bool reaching, const Pass& pass) {
   // copies, which lie behind the blocks of owned bonds, break on the rank that owns them
   const std::size_t owned = ForceBuffer::capacity * force_blocks(w.bonds.size);
   for_ranges(w.bond_plan.ranges, [&](int range) {
     for_blocks(w, range, reaching, [&](std::size_t first, std::size_t last) {
-      if (first < owned) pass(range, first, std::min(last, owned), notes_of(w.cracks, range));
-      if (last > owned) pass(range, std::max(first, owned), last, nullptr);
+      if (first < owned) pass(first, std::min(last, owned), notes_of(w.cracks, range));
+      if (last > owned) pass(std::max(first, owned), last, nullptr);
     });
   });
 }
@@ -100,7 +100,7 @@ void pass_over_bonds(World& w, bool reaching) {
   const Scatter to = scatter_view(w.bond_plan, b.row_lo, b.row_hi, b.arm_offset, w.particles);
   const BondPassIn in = bond_pass_in(w);
   const BondPassHistory history = bond_pass_history(w);
-  for_bonds(w, reaching, [&](int, std::size_t first, std::size_t last, BreakNotes* notes) {
+  for_bonds(w, reaching, [&](std::size_t first, std::size_t last, BreakNotes* notes) {
     w.bond_pass(in, history, first, last, to, notes);
   });
 }

@@ -43,7 +43,7 @@ void forget_blocks(SingleStore& s) {
 void pass_in_single(World& w, const std::function<void(const SingleRange&)>& for_bonds) {
   const SinglePassIn in = single_pass_in(w);
   std::atomic<unsigned> events = 0;
-  for_bonds([&](int, std::size_t first, std::size_t last, BreakNotes* notes) {
+  for_bonds([&](std::size_t first, std::size_t last, BreakNotes* notes) {
     events |= w.single_pass(in, first, last, notes);
   });
   w.single.events |= events;

@@ -16,8 +16,8 @@ void fill_single(World& world);
 /// What only a rank that runs bonds needs.
 void forget_blocks(SingleStore& store);
 
-/// Passes over bonds; for_bonds(pass) calls pass(range, first, last, notes).
-using SingleRange = std::function<void(int, std::size_t, std::size_t, BreakNotes*)>;
+/// Passes over bonds; for_bonds(pass) calls pass(first, last, notes).
+using SingleRange = std::function<void(std::size_t, std::size_t, BreakNotes*)>;
 void pass_in_single(World& world, const std::function<void(const SingleRange&)>& for_bonds);
 
 /// The sums become forces of those particles that somebody looks at before they move, which are

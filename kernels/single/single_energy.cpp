@@ -11,21 +11,19 @@ double single_energy(const SingleEnergyIn& in, std::size_t first, std::size_t la
   for (std::size_t b = first / float_width * float_width; b < last; b += float_width) {
     const BondBlock& block = in.bonds[b / bond_block];
     const RareBlock& rare = in.rare[b / bond_block];
-    const auto lanes = [&](const float(&values)[bond_block]) {
-      return FloatLanes(FloatLanes::Register(values + b % bond_block, std::experimental::vector_aligned));
-    };
     EndColumns ends = ends_of(in, b);
     if (in.before_last_move) ends.place -= per_moved * ends.moved;
-    const FloatLanes elastic = motion_of(ends, none).longer - lanes(block.plastic);
-    const Vec<FloatLanes> shear{lanes(block.shear_x), lanes(block.shear_y), lanes(block.shear_z)};
-    const FloatLanes stiffness = lanes(block.stiffness);
+    const FloatLanes elastic = motion_of(ends, none).longer - lanes_at(block.plastic, b);
+    const Vec<FloatLanes> shear{lanes_at(block.shear_x, b), lanes_at(block.shear_y, b),
+                                lanes_at(block.shear_z, b)};
+    const FloatLanes stiffness = lanes_at(block.stiffness, b);
     FloatLanes twice = stiffness * elastic * elastic;
     if (in.shear_ratio > 0.0) twice += dot(shear, shear) / (ratio * stiffness);
     // a range of rows may begin and end within a batch
     const FloatLanes from(static_cast<double>(first > b ? first - b : 0)),
         to(static_cast<double>(std::min(last - b, float_width)));
-    const auto counts = stiffness > none && lanes(rare.damage_normal) == none &&
-                        lanes(rare.damage_shear) == none && count >= from && count < to;
+    const auto counts = stiffness > none && lanes_at(rare.damage_normal, b) == none &&
+                        lanes_at(rare.damage_shear, b) == none && count >= from && count < to;
     total += sum_of_lanes(select(counts, twice, none));
   }
   return 0.5 * in.length * in.force * total;  // (B50)

@@ -12,6 +12,11 @@
 namespace breccia::BRECCIA_ISA {
 namespace {
 
+/// Of a column of a block, the values of bonds [b, b + float_width).
+[[gnu::always_inline]] inline FloatLanes lanes_at(const float (&column)[bond_block], std::size_t b) {
+  return FloatLanes::Register(column + b % bond_block, std::experimental::vector_aligned);
+}
+
 /// Bonds as blocks of sixteen, as the shared parts of the loops take them.
 struct BlockBonds {
   const SinglePassIn& in;
@@ -19,14 +24,15 @@ struct BlockBonds {
   template <Column column>
   [[gnu::always_inline]] FloatLanes load(std::size_t b) const {
     if constexpr (column == Column::strength_area)
-      return in.own_strength_area ? from(in.rare[b / bond_block].strength_area, b) : load<Column::area>(b);
+      return in.own_strength_area ? lanes_at(in.rare[b / bond_block].strength_area, b)
+                                  : load<Column::area>(b);
     else
-      return from(values<column>(b), b);
+      return lanes_at(values<column>(b), b);
   }
   template <Column column>
   [[gnu::always_inline]] void store(std::size_t b, const FloatLanes& lanes) const {
     if constexpr (column == Column::plastic_stretch)
-      to(in.bonds[b / bond_block].plastic, b, lanes - from(in.rare[b / bond_block].anchored, b));
+      to(in.bonds[b / bond_block].plastic, b, lanes - lanes_at(in.rare[b / bond_block].anchored, b));
     if constexpr (column == Column::damage_normal) in.damaged[b / bond_block] = 1;
     to(values<column>(b), b, lanes);
   }
@@ -38,9 +44,6 @@ struct BlockBonds {
   }
 
 private:
-  static FloatLanes from(const float (&block)[bond_block], std::size_t b) {
-    return FloatLanes::Register(block + b % bond_block, std::experimental::vector_aligned);
-  }
   static void to(float (&block)[bond_block], std::size_t b, const FloatLanes& lanes) {
     lanes.v.copy_to(block + b % bond_block, std::experimental::vector_aligned);
   }
@@ -50,7 +53,6 @@ private:
     if constexpr (column == Column::area) return in.bonds[k].area;
     if constexpr (column == Column::stiffness) return in.bonds[k].stiffness;
     if constexpr (column == Column::damping) return in.bonds[k].damping;
-    if constexpr (column == Column::arm_offset) return in.bonds[k].per_radii;
     if constexpr (column == Column::shear_x) return in.bonds[k].shear_x;
     if constexpr (column == Column::shear_y) return in.bonds[k].shear_y;
     if constexpr (column == Column::shear_z) return in.bonds[k].shear_z;
@@ -252,9 +254,11 @@ template <Features features, class Law>
     BondLosses<FloatLanes> loss{};
     for (std::size_t b = first; b < end; b += float_width) {
       prefetch_ends(in, b);
+      const BondBlock& block = in.bonds[b / bond_block];
+      const RareBlock& rare = in.rare[b / bond_block];
       const EndColumns ends = ends_of(in, b);
       waiting.add<0>(), waiting.add<1>();
-      const PairMotion pair = motion_of(ends, bonds.load<Column::arm_offset>(b));
+      const PairMotion pair = motion_of(ends, lanes_at(block.per_radii, b));
       waiting.add<2>(), waiting.add<3>(), waiting.add<4>();
       BondConstants<FloatLanes> bond{pair.anchor_distance, bonds.load<Column::area>(b),
                                      bonds.load<Column::strength_area>(b), bonds.load<Column::stiffness>(b),
@@ -265,25 +269,17 @@ template <Features features, class Law>
       const FloatLanes k_s = shear_stiffness_of(law, b, bond.stiffness);
       const Vec<FloatLanes> trial = trial_shear<features.rotation>(pair, before, k_s);
       waiting.add<5>(), waiting.add<6>(), waiting.add<7>();
-      const FloatLanes elastic =
-          pair.longer - FloatLanes(FloatLanes::Register(in.bonds[b / bond_block].plastic + b % bond_block,
-                                                        std::experimental::vector_aligned));
+      const FloatLanes elastic = pair.longer - lanes_at(block.plastic, b);
       const FloatLanes normal = bond.stiffness * elastic;
       Vec<FloatLanes> shear = trial;
       FloatLanes total = normal;
       if constexpr (features.contact_damping) total += bond.damping * pair.rate;
       waiting.add<8>(), waiting.add<9>();
+      // most laws need it on the long way alone
+      const auto stretch = [&] { return pair.longer + lanes_at(rare.anchored, b); };
       FloatLanes::Mask acts(true);  // the law, and not springs and dashpots alone
       bool short_way = false;
       if constexpr (has_short_way<features, Law>) {
-        const auto stretch = [&] {
-          if constexpr (requires { law.strain_limit; })
-            return pair.longer +
-                   FloatLanes(FloatLanes::Register(in.rare[b / bond_block].anchored + b % bond_block,
-                                                   std::experimental::vector_aligned));
-          else
-            return elastic;
-        };
         acts = may_change<features>(law, bond, stretch(), elastic, normal, trial);
         short_way = in.damaged[b / bond_block] == 0 && !any(acts);
       }
@@ -297,10 +293,7 @@ template <Features features, class Law>
         const BondHistory<FloatLanes> was = history_of<features, FloatLanes>(bonds, b);
         BondHistory<FloatLanes> h = was;
         h.shear = trial;
-        const FloatLanes stretch =
-            pair.longer + FloatLanes(FloatLanes::Register(in.rare[b / bond_block].anchored + b % bond_block,
-                                                          std::experimental::vector_aligned));
-        const BondStrain<FloatLanes> strain{stretch, elastic, pair.rate, pair.rate,
+        const BondStrain<FloatLanes> strain{stretch(), elastic, pair.rate, pair.rate,
                                             slip_of<features.rotation>(pair)};
         const Vec<FloatLanes> rotated = trial - k_s * strain.slip;
         BondAction<FloatLanes> action = act_on_batch<features>(law, b, bond, strain, rotated, h);
