@@ -173,7 +173,7 @@ Quanta choose_quanta(const ParticleTable& p, const BondTable& b) {
   // four times the limit from each bond of the particle that has most, and a quarter more in its
   // moments
   q.force_limit = 0x1p31 / (4.0 * 1.25 * most);
-  constexpr double strain = 0.002;  // to begin with: the finer, the less noise where forces are small
+  constexpr double strain = 0.00025;  // to begin with: the finer, the less noise where forces are small
   q.force = power_of_two_above(std::max(strongest * strain / q.force_limit, 1e-30));
   Vec3 low, high;
   for (std::size_t row = 0; row < p.size; ++row) {

@@ -1,5 +1,6 @@
 // From particles in doubles to the records of the loop in single precision, and from its sums back.
 // Compiled once per instruction set.
+#include <algorithm>
 #include <bit>
 
 #include "kernels/loops/kick.hpp"
@@ -80,7 +81,7 @@ Integrated kick_drift_and_record(const Motion m, const RecordedMotion to, const 
                                  const GlobalDamping damping) {
   RangeSums<booked> sums;
   Recorder recorder(to, dt);
-  for (std::size_t row = first; row < last; ++row) {
+  const auto kick_and_drift = [&](std::size_t row) __attribute__((always_inline)) {
     FourInts &bonds_force = ints(from.sums[row].force), &bonds_moment = ints(from.sums[row].moment);
     const Four force = four(m.force[row]) + from.force_quantum * __builtin_convertvector(bonds_force, Four);
     Four torque{};
@@ -97,7 +98,16 @@ Integrated kick_drift_and_record(const Motion m, const RecordedMotion to, const 
     if constexpr (spins) four(m.spin[row]) = k.new_spin;
     four(m.force[row]) = Four{};
     if (!m.torque.empty()) four(m.torque[row]) = Four{};
-    recorder.record(row, position, k.new_velocity, k.new_spin);
+  };
+  // two short loops rather than one long one: a kick waits for a root between two quotients, and a
+  // processor overlaps only as many rows as it has room for
+  constexpr std::size_t stretch = 64;  // rows that stay in the first cache
+  for (std::size_t begin = first; begin < last; begin += stretch) {
+    const std::size_t end = std::min(begin + stretch, last);
+    for (std::size_t row = begin; row < end; ++row) kick_and_drift(row);
+    for (std::size_t row = begin; row < end; ++row)
+      recorder.record(row, four(m.position[row]), four(m.velocity[row]),
+                      spins ? four(m.spin[row]) : Four{});
   }
   return sums.of_step(dt, recorder.events());
 }
