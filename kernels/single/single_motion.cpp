@@ -1,6 +1,5 @@
 // From particles in doubles to the records of the loop in single precision, and from its sums back.
 // Compiled once per instruction set.
-#include <algorithm>
 #include <bit>
 
 #include "kernels/loops/kick.hpp"
@@ -28,6 +27,11 @@ using FourLongs [[gnu::vector_size(32)]] = std::int64_t;
 /// a - factor b, modulo 2^32.
 [[gnu::always_inline]] inline FourInts less(const FourInts& a, const FourInts& b, std::uint32_t factor = 1) {
   return (FourInts)((FourWrapping)a - factor * (FourWrapping)b);
+}
+
+/// Most particles bear nothing but their bonds: what is zero is not written again.
+[[gnu::always_inline]] inline void clear(Vec3& sum) {
+  if (const auto bits = std::bit_cast<FourLongs>(four(sum)); bits[0] | bits[1] | bits[2]) four(sum) = Four{};
 }
 
 /// Writes a particle's record; looks at how far and how fast it is.
@@ -76,39 +80,28 @@ private:
 /// Views by value: what is stored through a vector could be one of them, for all a compiler knows
 /// of a reference, and it would read them again for every row.
 template <bool spins, bool viscous, bool booked>
-Integrated kick_drift_and_record(const Motion m, const RecordedMotion to, const CollectedSums from,
-                                 std::size_t first, std::size_t last, double dt,
-                                 const GlobalDamping damping) {
+Integrated move_and_record(const Motion m, const RecordedMotion to, const CollectedSums from,
+                           std::size_t first, std::size_t last, double dt, const GlobalDamping damping) {
   RangeSums<booked> sums;
+  Stretch together{};
   Recorder recorder(to, dt);
-  const auto kick_and_drift = [&](std::size_t row) __attribute__((always_inline)) {
-    FourInts &bonds_force = ints(from.sums[row].force), &bonds_moment = ints(from.sums[row].moment);
-    const Four force = four(m.force[row]) + from.force_quantum * __builtin_convertvector(bonds_force, Four);
-    Four torque{};
-    if constexpr (spins)
-      torque = four(m.torque[row]) +
-               (from.force_quantum * from.radius[row]) * __builtin_convertvector(bonds_moment, Four);
-    bonds_force = bonds_moment = FourInts{};
-    const Kicked k = kicked<spins, viscous>(m, row, force, torque, dt, damping);
-    sums.add(k);
-    const Four position = four(m.position[row]) + dt * k.new_velocity;  // (P7)
-    sums.read_gauges(m, row, position);
-    four(m.velocity[row]) = k.new_velocity;
-    four(m.position[row]) = position;
-    if constexpr (spins) four(m.spin[row]) = k.new_spin;
-    four(m.force[row]) = Four{};
-    if (!m.torque.empty()) four(m.torque[row]) = Four{};
-  };
-  // two short loops rather than one long one: a kick waits for a root between two quotients, and a
-  // processor overlaps only as many rows as it has room for
-  constexpr std::size_t stretch = 64;  // rows that stay in the first cache
-  for (std::size_t begin = first; begin < last; begin += stretch) {
-    const std::size_t end = std::min(begin + stretch, last);
-    for (std::size_t row = begin; row < end; ++row) kick_and_drift(row);
+  by_stretches(first, last, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
+    const auto loads = [&](std::size_t row, Four& torque) __attribute__((always_inline)) {
+      FourInts &bonds_force = ints(from.sums[row].force), &bonds_moment = ints(from.sums[row].moment);
+      const Four force =
+          four(m.force[row]) + from.force_quantum * __builtin_convertvector(bonds_force, Four);
+      if constexpr (spins)
+        torque = four(m.torque[row]) +
+                 (from.force_quantum * from.radius[row]) * __builtin_convertvector(bonds_moment, Four);
+      bonds_force = bonds_moment = FourInts{};
+      clear(m.force[row]);
+      if (!m.torque.empty()) clear(m.torque[row]);
+      return force;
+    };
+    kick_and_drift<spins, viscous>(m, begin, end, dt, damping, loads, together, sums);
     for (std::size_t row = begin; row < end; ++row)
-      recorder.record(row, four(m.position[row]), four(m.velocity[row]),
-                      spins ? four(m.spin[row]) : Four{});
-  }
+      recorder.record(row, four(m.position[row]), four(m.velocity[row]), spins ? four(m.spin[row]) : Four{});
+  });
   return sums.of_step(dt, recorder.events());
 }
 
@@ -118,7 +111,7 @@ Integrated integrate_single(const Motion& m, const RecordedMotion& to, const Col
                             std::size_t first, std::size_t last, double dt, const GlobalDamping& damping,
                             bool booked) {
   return for_scene(!m.spin.empty() && m.spins, damping.viscous, booked, [&]<bool s, bool v, bool b>() {
-    return kick_drift_and_record<s, v, b>(m, to, from, first, last, dt, damping);
+    return move_and_record<s, v, b>(m, to, from, first, last, dt, damping);
   });
 }
 
