@@ -11,11 +11,16 @@ namespace breccia {
 
 BrokenCount count_broken(const World& w) {
   std::vector<BrokenCount> blocks;
-  return sum_pairs(w.partition, w.bonds, w.options.threads, blocks, [&](std::size_t k) {
-    const BondState state = bond_state(w.bonds, k);
-    return BrokenCount{std::size_t{state == BondState::broken_tension},
-                       std::size_t{state == BondState::broken_shear}};
-  });
+  return sum_pair_ranges(w.partition, w.bonds, w.options.threads, blocks,
+                         [&](std::size_t first, std::size_t last) {
+                           BrokenCount count;
+                           for_damaged(w, first, last, [&](std::size_t k) {
+                             const BondState state = bond_state(w.bonds, k);
+                             count += {std::size_t{state == BondState::broken_tension},
+                                       std::size_t{state == BondState::broken_shear}};
+                           });
+                           return count;
+                         });
 }
 
 namespace {
@@ -112,10 +117,17 @@ double stored_energy(const World& w, double back) {
                               : w.single.empty() ? w.undamaged_energy(in, first, last)
                                                  : w.single_energy(in_single, first, last);
               if (b.damage_normal.empty() && !each) return energy;
-              for (std::size_t k = first; k < last; ++k)
-                if (each || b.damage_normal[k] > 0.0 || b.damage_shear[k] > 0.0)
-                  energy += stored_energy(law_of(k), constants_of_bond(b, k), history_of_bond(b, k),
-                                          distance_of(b.row_lo[k], b.row_hi[k]), coupled);
+              const auto add = [&](std::size_t k) {
+                energy += stored_energy(law_of(k), constants_of_bond(b, k), history_of_bond(b, k),
+                                        distance_of(b.row_lo[k], b.row_hi[k]), coupled);
+              };
+              if (each) {
+                for (std::size_t k = first; k < last; ++k) add(k);
+                return energy;
+              }
+              for_damaged(w, first, last, [&](std::size_t k) {
+                if (b.damage_normal[k] > 0.0 || b.damage_shear[k] > 0.0) add(k);
+              });
               return energy;
             });
       });

@@ -13,6 +13,18 @@ struct BrokenCount {
 };
 BrokenCount count_broken(const World& world);
 
+/// Calls visit(bond) for those of bonds [first, last) that may be damaged: single precision knows
+/// whole blocks that are not.
+template <class Visit>
+void for_damaged(const World& w, std::size_t first, std::size_t last, const Visit& visit) {
+  for (std::size_t k = first; k < last;) {
+    const std::size_t end = w.single.empty() ? last : std::min(last, (k / bond_block + 1) * bond_block);
+    if (w.single.empty() || w.single.damaged[k / bond_block] != 0)
+      for (std::size_t bond = k; bond < end; ++bond) visit(bond);
+    k = end;
+  }
+}
+
 /// J, of plain velocities, which belong to half a step ago.
 double kinetic_energy(const World& world);
 

@@ -82,15 +82,19 @@ double normal_damage(const World& w) {
   std::vector<double> blocks;
   const BondTable& b = w.bonds;
   return with_laws(w.laws, b.law, [&](const auto& law_of) {
-    return sum_pairs(w.partition, b, w.options.threads, blocks, [&](std::size_t k) {
-      const auto& law = law_of(k);
-      if (passes_moments<std::decay_t<decltype(law)>>) return 0.0;
-      const double damage = b.damage_normal[k];
-      if (!(damage > 0.0)) return 0.0;
-      const BondConstants<double> bond = constants_of_bond(b, k);
-      return damage_energy(damage, limits_of(law, bond).tension, bond.stiffness,
-                           delta_normal(law.failure, strain_length(law.young, bond)));
-    });
+    return sum_pair_ranges(
+        w.partition, b, w.options.threads, blocks, [&](std::size_t first, std::size_t last) {
+          double energy = 0.0;
+          for_damaged(w, first, last, [&](std::size_t k) {
+            const auto& law = law_of(k);
+            const double damage = b.damage_normal[k];
+            if (passes_moments<std::decay_t<decltype(law)>> || !(damage > 0.0)) return;
+            const BondConstants<double> bond = constants_of_bond(b, k);
+            energy += damage_energy(damage, limits_of(law, bond).tension, bond.stiffness,
+                                    delta_normal(law.failure, strain_length(law.young, bond)));
+          });
+          return energy;
+        });
   });
 }
 

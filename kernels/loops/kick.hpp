@@ -101,14 +101,15 @@ template <bool spins, bool viscous, bool booked, class Loads>
     if constexpr (!viscous)
       Stretch::put(s.forces, k, products(s.force[k], s.force[k], s.torque[k], s.torque[k]));
     const double mass = m.mass[row];
-    Stretch::put(s.inertia, k, Two{mass, spins ? m.inertia_factor * mass * m.radius[row] * m.radius[row] : mass});
+    Stretch::put(s.inertia, k,
+                 Two{mass, spins ? m.inertia_factor * mass * m.radius[row] * m.radius[row] : mass});
   }
   work_out<viscous>(s, dt, damping);
   for (std::size_t row = first; row < last; ++row) {
     const std::size_t k = row - first;
     const Four velocity = four(m.velocity[row]), spin = spins ? four(m.spin[row]) : rest;
     const Two held = Stretch::of(s.held, k), kick = Stretch::of(s.kick, k);
-    const Four new_velocity = velocity + kick[0] * (s.force[k] - held[0] * velocity);           // (P1) (P6)
+    const Four new_velocity = velocity + kick[0] * (s.force[k] - held[0] * velocity);      // (P1) (P6)
     const Four new_spin = spins ? spin + kick[1] * (s.torque[k] - held[1] * spin) : rest;  // (P2) (P9)
     if constexpr (booked)
       sums.add(Stretch::of(s.speeds, k), products(velocity, new_velocity, spin, new_spin), held,

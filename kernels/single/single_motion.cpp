@@ -85,23 +85,25 @@ Integrated move_and_record(const Motion m, const RecordedMotion to, const Collec
   RangeSums<booked> sums;
   Stretch together{};
   Recorder recorder(to, dt);
-  by_stretches(first, last, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
-    const auto loads = [&](std::size_t row, Four& torque) __attribute__((always_inline)) {
-      FourInts &bonds_force = ints(from.sums[row].force), &bonds_moment = ints(from.sums[row].moment);
-      const Four force =
-          four(m.force[row]) + from.force_quantum * __builtin_convertvector(bonds_force, Four);
-      if constexpr (spins)
-        torque = four(m.torque[row]) +
-                 (from.force_quantum * from.radius[row]) * __builtin_convertvector(bonds_moment, Four);
-      bonds_force = bonds_moment = FourInts{};
-      clear(m.force[row]);
-      if (!m.torque.empty()) clear(m.torque[row]);
-      return force;
-    };
-    kick_and_drift<spins, viscous>(m, begin, end, dt, damping, loads, together, sums);
-    for (std::size_t row = begin; row < end; ++row)
-      recorder.record(row, four(m.position[row]), four(m.velocity[row]), spins ? four(m.spin[row]) : Four{});
-  });
+  by_stretches(
+      first, last, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
+        const auto loads = [&](std::size_t row, Four & torque) __attribute__((always_inline)) {
+          FourInts &bonds_force = ints(from.sums[row].force), &bonds_moment = ints(from.sums[row].moment);
+          const Four force =
+              four(m.force[row]) + from.force_quantum * __builtin_convertvector(bonds_force, Four);
+          if constexpr (spins)
+            torque = four(m.torque[row]) +
+                     (from.force_quantum * from.radius[row]) * __builtin_convertvector(bonds_moment, Four);
+          bonds_force = bonds_moment = FourInts{};
+          clear(m.force[row]);
+          if (!m.torque.empty()) clear(m.torque[row]);
+          return force;
+        };
+        kick_and_drift<spins, viscous>(m, begin, end, dt, damping, loads, together, sums);
+        for (std::size_t row = begin; row < end; ++row)
+          recorder.record(row, four(m.position[row]), four(m.velocity[row]),
+                          spins ? four(m.spin[row]) : Four{});
+      });
   return sums.of_step(dt, recorder.events());
 }
 
