@@ -18,6 +18,7 @@ void for_each_number_of_world(W& w, Visit&& visit) {
   visit("critical_dt", w.critical_dt);
   visit("phases", w.phases.seconds);
 
+  visit("single_motion", w.single.quanta.motion);
   visit("single_force", w.single.quanta.force);
   visit("single_events", w.single.events);
   visit("single_renewals", w.single.renewals);

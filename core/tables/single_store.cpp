@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/base/threads.hpp"
 #include "kernels/laws/bond_law.hpp"
@@ -27,19 +28,19 @@ void put(std::int32_t (&row)[4], const Vec3& v, double unit) {
   row[2] = wrapped(std::nearbyint(v.z / unit));
 }
 
-double fine_unit(const Quanta& q) { return q.length / fine_parts; }
 double coarse_unit(const Quanta& q) { return q.length * coarse_parts; }
 
 void put_spin(MotionRecord& r, const ParticleTable& p, std::size_t row, const Quanta& q, double dt) {
-  if (!p.spin.empty()) put(r.spun, (p.radius[row] * dt) * p.spin[row], fine_unit(q));
+  if (!p.spin.empty()) put(r.spun, (p.radius[row] * dt) * p.spin[row], q.motion);
 }
 
-/// The record's fourth numbers: the place in 1/4 quantum.
+/// The record's fourth numbers: the place in quanta of motion.
 void put_fine_place(MotionRecord& r, const Vec3& place, const Quanta& q) {
+  const auto coarse = static_cast<std::uint32_t>(coarse_unit(q) / q.motion);
   const auto fine = [&](double of_anchor, std::int32_t anchor) {
     return static_cast<std::int32_t>(
-        static_cast<std::uint32_t>(wrapped(std::nearbyint(of_anchor / fine_unit(q)))) +
-        static_cast<std::uint32_t>(fine_parts * coarse_parts) * static_cast<std::uint32_t>(anchor));
+        static_cast<std::uint32_t>(wrapped(std::nearbyint(of_anchor / q.motion))) +
+        coarse * static_cast<std::uint32_t>(anchor));
   };
   r.place[3] = fine(place.x, r.anchor[0]);
   r.moved[3] = fine(place.y, r.anchor[1]);
@@ -110,7 +111,7 @@ void fill_motion(SingleStore& s, const ParticleTable& p) {
     MotionRecord& r = s.motion[row];
     const Vec3 place = p.position[row] - q.origin - p.anchor[row];
     put(r.place, place, q.length);
-    put(r.moved, p.last_move[row], fine_unit(q));
+    put(r.moved, p.last_move[row], q.motion);
     put(r.anchor, p.anchor[row], coarse_unit(q));
     put_spin(r, p, row, q, s.dt);
     put_fine_place(r, place, q);
@@ -157,23 +158,28 @@ void put_history(SingleStore& s, std::size_t k, const ParticleTable& p, const Bo
 
 }  // namespace
 
-Quanta choose_quanta(const ParticleTable& p, const BondTable& b) {
+Quanta choose_quanta(const ParticleTable& p, const BondTable& b, double dt) {
   Quanta q;
-  double sum = 0, longest = 0, strongest = 0;
+  double sum = 0, longest = 0, strongest = 0, arm = 1, fastest = 0;
   std::vector<unsigned> bonds_of(p.size);
   for (std::size_t k = 0; k < b.size; ++k) {
     sum += b.rest_length[k];
     longest = std::max(longest, b.rest_length[k]);
     strongest = std::max(strongest, b.stiffness[k] * b.rest_length[k]);
+    arm = std::max(arm, b.rest_length[k] / (p.radius[b.row_lo[k]] + p.radius[b.row_hi[k]]));
     ++bonds_of[b.row_lo[k]], ++bonds_of[b.row_hi[k]];
   }
   const double mean = sum / static_cast<double>(std::max<std::size_t>(1, b.size));
   q.length = power_of_two_above(std::max({mean / 32.0, longest / 128.0, 1e-30})) * 0x1p-31;
+  for (std::size_t row = 0; row < p.size; ++row)
+    fastest =
+        std::max({fastest, norm(p.velocity[row]), p.spin.empty() ? 0.0 : p.radius[row] * norm(p.spin[row])});
+  for (q.motion = q.length / 4.0; fastest * dt > fast_motion * q.motion;) q.motion *= 4.0;
   const unsigned most = b.size == 0 ? 1 : *std::max_element(bonds_of.begin(), bonds_of.end());
-  // four times the limit from each bond of the particle that has most, and a quarter more in its
-  // moments
-  q.force_limit = 0x1p31 / (4.0 * 1.25 * most);
-  constexpr double strain = 0.00025;  // to begin with: the finer, the less noise where forces are small
+  // of each bond of the particle that has most; moments, over the radius, are as much larger as bonds are
+  // longer than both radii
+  q.force_limit = 0x1p31 / (1.25 * arm * most);
+  constexpr double strain = 0.0005;  // to begin with: the finer, the less noise where forces are small
   q.force = power_of_two_above(std::max(strongest * strain / q.force_limit, 1e-30));
   Vec3 low, high;
   for (std::size_t row = 0; row < p.size; ++row) {
@@ -191,7 +197,7 @@ void set_anchors(const Quanta& q, ParticleTable& p, double dt) {
   p.last_move.assign(p.padded, {});
   for (std::size_t row = 0; row < p.size; ++row) {
     p.anchor[row] = rounded(p.position[row] - q.origin, coarse_unit(q));
-    p.last_move[row] = rounded(dt * p.velocity[row], fine_unit(q));
+    p.last_move[row] = rounded(dt * p.velocity[row], q.motion);
   }
 }
 
@@ -236,7 +242,7 @@ void history_to_table(const SingleStore& s, std::size_t first, std::size_t last,
 }
 
 void moves_to_table(const SingleStore& s, ParticleTable& p) {
-  const double unit = fine_unit(s.quanta);
+  const double unit = s.quanta.motion;
   for (std::size_t row = 0; row < s.motion.size(); ++row) {
     const auto& moved = s.motion[row].moved;
     p.last_move[row] = {unit * moved[0], unit * moved[1], unit * moved[2]};
@@ -286,6 +292,45 @@ void coarsen_force(SingleStore& s, std::span<const BondLaw> laws) {
   for (LedgerBlock& block : s.ledger) scale(block.viscous_force, by), scale(block.spring_force, by);
   s.laws = laws_in_units(laws, s.quanta);
   ++s.coarsenings;
+}
+
+void coarsen_motion(SingleStore& s, const ParticleTable& p) {
+  Quanta& q = s.quanta;
+  const double before = q.motion;
+  q.motion *= 4.0;
+  for (std::size_t row = 0; row < s.motion.size(); ++row) {
+    MotionRecord& r = s.motion[row];
+    put(r.moved, before * Vec3{1.0 * r.moved[0], 1.0 * r.moved[1], 1.0 * r.moved[2]}, q.motion);
+    put_spin(r, p, row, q, s.dt);
+    put_fine_place(r, p.position[row] - q.origin - p.anchor[row], q);
+  }
+  ++s.coarsenings;
+}
+
+void add_apart(SingleStore& s, ParticleTable& p, std::size_t first, std::size_t last) {
+  if (s.apart.empty()) return;
+  struct Sum {
+    std::int64_t force[3] = {}, moment[3] = {};
+  };
+  std::map<Row, Sum> sums;
+  for (const LoadApart& load : s.apart)
+    for (const auto& [row, sign] : {std::pair{load.near, 1.0}, std::pair{load.far, -1.0}}) {
+      if (row < first || row >= last) continue;
+      Sum& sum = sums[row];
+      for (int k = 0; k < 3; ++k) {
+        sum.force[k] += std::llrint(sign * load.force[k]);
+        sum.moment[k] += std::llrint(load.moment[k]);
+      }
+    }
+  const auto in_si = [&](const std::int64_t(&sum)[3]) {
+    return s.quanta.force *
+           Vec3{static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])};
+  };
+  for (const auto& [row, sum] : sums) {
+    p.force[row] += in_si(sum.force);
+    if (!p.torque.empty()) p.torque[row] += p.radius[row] * in_si(sum.moment);
+  }
+  s.apart.clear();
 }
 
 void fit_step(SingleStore& s, const ParticleTable& p, const BondTable& b, double dt) {

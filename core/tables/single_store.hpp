@@ -13,13 +13,14 @@ namespace breccia {
 /// Units of the loop, and what its integers hold.
 struct Quanta {
   double length = 0;       ///< m, a power of two
+  double motion = 0;       ///< m, of one step, a power of two; coarser when something is fast
   double force = 0;        ///< N, a power of two; coarser when forces ask for it
-  double force_limit = 0;  ///< of a component of a bond's force, in quanta: four times this fits all sums
+  double force_limit = 0;  ///< of a component of a bond's force, in quanta: what sums hold of every bond
   Vec3 origin;             ///< m, that anchors count from
 };
 
 /// Chosen from a whole specimen, the same on every rank.
-Quanta choose_quanta(const ParticleTable& particles, const BondTable& bonds);
+Quanta choose_quanta(const ParticleTable& particles, const BondTable& bonds, double dt);
 
 /// Empty where the scene runs in double precision.
 struct SingleStore {
@@ -27,7 +28,7 @@ struct SingleStore {
   double dt = 0;                   ///< s, that dashpots and spins are kept for
   unsigned events = 0;             ///< SingleEvent bits that nobody has seen to yet
   std::uint64_t renewals = 0;      ///< of anchors, particle by particle
-  std::uint64_t coarsenings = 0;   ///< of the quantum of force, by four
+  std::uint64_t coarsenings = 0;   ///< of the quantum of force or motion, by four
   bool ghosts_are_current = true;  ///< records of particles that other ranks move
   Column<MotionRecord> motion;
   Column<IntegerSums> sums;
@@ -38,6 +39,7 @@ struct SingleStore {
   Column<Index> near, far;             ///< where loads go, of several threads
   Column<Index> first_bond, bonds_of;  ///< of each particle
   std::vector<Row> moved_far;          ///< particles that want another anchor before the next pass
+  std::vector<LoadApart> apart;        ///< of this step: more than sums hold
   std::vector<BondLaw> laws;           ///< in the loop's units
   bool own_strength_area = false;
 
@@ -79,5 +81,12 @@ void renew_anchors(SingleStore& store, ParticleTable& particles, const BondTable
 
 /// Four times the quantum of force.
 void coarsen_force(SingleStore& store, std::span<const BondLaw> laws);
+
+/// Four times the quantum of motion.
+void coarsen_motion(SingleStore& store, const ParticleTable& particles);
+
+/// Adds what was kept apart to the particles' forces: whole quanta, so that the order is all one.
+/// @param first, last  rows that this rank moves
+void add_apart(SingleStore& store, ParticleTable& particles, std::size_t first, std::size_t last);
 
 }  // namespace breccia

@@ -36,6 +36,7 @@ SingleEnergyIn single_energy_in(const World& w, double back) {
           .rare = s.rare,
           .motion = s.motion,
           .length = s.quanta.length,
+          .moved = s.quanta.motion,
           .force = s.quanta.force,
           .shear_ratio = w.shear_ratio.front(),
           .before_last_move = back != 0.0};
@@ -70,6 +71,7 @@ SinglePassIn single_pass_in(World& w) {
           .row_lo = b.row_lo,
           .row_hi = b.row_hi,
           .length = s.quanta.length,
+          .moved = s.quanta.motion,
           .force = s.quanta.force,
           .force_limit = static_cast<float>(s.quanta.force_limit),
           .own_strength_area = s.own_strength_area};
@@ -83,7 +85,8 @@ RecordedMotion recorded_motion(World& w) {
           .radius = p.radius,
           .records = w.single.motion,
           .origin = w.single.quanta.origin,
-          .length = w.single.quanta.length};
+          .length = w.single.quanta.length,
+          .moved = w.single.quanta.motion};
 }
 
 CollectedSums collected_sums(World& w) {

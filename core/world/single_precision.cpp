@@ -1,6 +1,7 @@
 #include "core/world/single_precision.hpp"
 
 #include <atomic>
+#include <mutex>
 
 #include "core/base/threads.hpp"
 #include "core/boundary/loose_surface.hpp"
@@ -23,7 +24,7 @@ void note_far(World& w, std::size_t first, std::size_t last) {
 
 void start_single(World& w) {
   if (w.options.precision != Precision::single) return;
-  w.single.quanta = choose_quanta(w.particles, w.bonds);
+  w.single.quanta = choose_quanta(w.particles, w.bonds, w.dt);
   set_anchors(w.single.quanta, w.particles, w.dt);
   fill_single(w);
 }
@@ -43,8 +44,13 @@ void forget_blocks(SingleStore& s) {
 void pass_in_single(World& w, const std::function<void(const SingleRange&)>& for_bonds) {
   const SinglePassIn in = single_pass_in(w);
   std::atomic<unsigned> events = 0;
+  std::mutex adds;
   for_bonds([&](std::size_t first, std::size_t last, BreakNotes* notes) {
-    events |= w.single_pass(in, first, last, notes);
+    std::vector<LoadApart> apart;
+    events |= w.single_pass(in, first, last, notes, apart);
+    if (apart.empty()) return;
+    const std::scoped_lock lock(adds);
+    w.single.apart.insert(w.single.apart.end(), apart.begin(), apart.end());
   });
   w.single.events |= events;
 }
@@ -64,9 +70,10 @@ void collect_single(World& w) {
       from = {};
     }
   }
-  const Rows mine = w.partition.owned(), held = looks_at_all(w.confinement, w.step)
-                                                    ? mine
-                                                    : w.partition.owned(w.particles.free, w.particles.size);
+  const Rows mine = w.partition.owned();
+  add_apart(s, w.particles, mine.first, mine.last);
+  const Rows held =
+      looks_at_all(w.confinement, w.step) ? mine : w.partition.owned(w.particles.free, w.particles.size);
   const CollectedSums sums = collected_sums(w);
   for_rows(held.last - held.first, w.options.threads, [&](std::size_t first, std::size_t last) {
     w.collect_sums(sums, held.first + first, held.first + last);

@@ -9,7 +9,8 @@ constexpr std::array fast{RecipeDefault{"damping.scheme", "summed"}, RecipeDefau
                           RecipeDefault{"time.mass_scaling", "true"}, RecipeDefault{"time.mass_factor", "2"},
                           RecipeDefault{"features.energy_ledger", "false"}};
 constexpr std::array reference{RecipeDefault{"time.safety", "0.4"},
-                               RecipeDefault{"test.platen_speed", "0.05 m/s"}};
+                               RecipeDefault{"test.platen_speed", "0.05 m/s"},
+                               RecipeDefault{"run.precision", "double"}};
 
 }  // namespace
 

@@ -38,6 +38,7 @@ bool takes_standard(const Key& key, const Layer& layer, std::string_view program
 }
 
 Standard Standards::of(const Key& key) const {
+  if (rolls && key.name == "run.precision") return {"double", "material.rolling_friction"};
   for (const RecipeDefault& default_text : accuracy_recipe(accuracy))
     if (default_text.key == key.name) return {default_text.value, "time.accuracy"};
   for (const LawDefault& default_text : facts_of(law).defaults)

@@ -20,6 +20,7 @@ struct Standards {
   std::string_view program;
   Space space = Space::three_d;
   std::string_view law, accuracy;
+  bool rolls = false;  ///< the material resists rolling
 
   Standard of(const Key& key) const;
 };

@@ -633,10 +633,10 @@ constexpr std::array keys{
         .store = [](C& c, const R& r) { c.scatter = scatter_of(r.word); }},
     Key{.name = "run.precision",
         .kind = Kind::word,
-        .default_text = "double",
-        .words = "double single",
+        .default_text = "single",
+        .words = "single double",
         .meaning = "single: the loop over bonds in floats, motion and sums as integers; the same bits for "
-                   "any number of threads and ranks",
+                   "any number of threads and ranks. Default double with resistance to rolling",
         .store = [](C& c,
                     const R& r) { c.precision = r.word == "single" ? Precision::single : Precision::full; }},
     Key{.name = "run.search_every",

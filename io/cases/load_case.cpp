@@ -114,6 +114,9 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   };
   if (!from_set.groups.empty()) from_file.groups = from_set.groups;
   if (!from_file.groups.empty()) take("bonds.between_groups", "true");
+  const auto rolling = base.find("material.rolling_friction");
+  defaults.rolls = rolling != base.end() && rolling->second.reading.number > 0.0;
+  if (defaults.rolls) take("run.precision", "double");
   for (const LawDefault& default_text : facts_of(law).defaults) take(default_text.key, default_text.value);
   if (const auto accuracy = layer.find("time.accuracy"); accuracy != layer.end())
     defaults.accuracy = accuracy->second.reading.word;
@@ -165,12 +168,12 @@ Case load_case(const std::filesystem::path& file, const std::vector<std::string>
   refuse_foreign_keys(layers.set, law);
   for (const ConfinementLayer& group : layers.given_at) refuse_foreign_keys(group.layer, law);
   check_law(laid, base.at("material.law"));
-  if (const auto given = base.find("material.rolling_friction");
-      given != base.end() && given->second.reading.number > 0.0) {
+  if (defaults.rolls) {
     if (!c.features.rotation)
-      refuse(given->second.place, given->first, "with features.rotation = false nothing rolls; leave it out");
+      refuse(rolling->second.place, rolling->first,
+             "with features.rotation = false nothing rolls; leave it out");
     if (c.precision == Precision::single)
-      refuse(given->second.place, given->first,
+      refuse(rolling->second.place, rolling->first,
              "resistance to rolling is not built for run.precision = \"single\"; leave one out");
   }
   if (const auto given = base.find("material.contact_law");

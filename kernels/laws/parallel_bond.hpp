@@ -19,7 +19,7 @@ struct ParallelBondLaw {
       LawParameter{"moment_factor", "1", 0.0, "1",
                    "beta: part of the moments' stresses that counts for breaking"},
   };
-  static constexpr std::array<LawDefault, 0> defaults{};
+  static constexpr std::array defaults{LawDefault{"run.precision", "double"}};
   static constexpr std::array feature_sets{Features{.plasticity = false},
                                            Features{.plasticity = false, .several = true}};
 

@@ -3,28 +3,29 @@
 // forces are added as integers, whose sum does not depend on the order. docs/model.md, "Single
 // precision".
 //
-// Units in the loop: a quantum of length, a quantum of force, the step. Both quanta are powers of
-// two in SI, so that turning a number costs it nothing.
+// Units in the loop: a quantum of length, one of motion, one of force, the step. All quanta are
+// powers of two in SI, so that turning a number costs it nothing.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "kernels/loops/bond_pass.hpp"
 #include "kernels/loops/integrate.hpp"
 
 namespace breccia {
 
-/// Quanta of length that a unit of the displacement of one step, and of the anchor, stands for.
-inline constexpr int fine_parts = 4, coarse_parts = 512;
+/// Quanta of length that a unit of the anchor stands for.
+inline constexpr int coarse_parts = 512;
 
 /// What the loop sees of a particle: one line of the cache. All modulo 2^32, since only differences
 /// of neighbours count. The fourth of a row is none of the loop's: there lies the place itself, in
-/// 1/4 quantum, from which the next step's displacement is counted.
+/// quanta of motion, from which the next step's displacement is counted.
 struct alignas(64) MotionRecord {
-  std::int32_t place[4] = {};   ///< displacement from the anchor, quanta
-  std::int32_t moved[4] = {};   ///< displacement of the last step, 1/4 quantum
-  std::int32_t spun[4] = {};    ///< radius times spin times step, 1/4 quantum
+  std::int32_t place[4] = {};   ///< displacement from the anchor, quanta of length
+  std::int32_t moved[4] = {};   ///< displacement of the last step, quanta of motion
+  std::int32_t spun[4] = {};    ///< radius times spin times step, quanta of motion
   std::int32_t anchor[4] = {};  ///< place that displacements count from, 512 quanta
 };
 
@@ -65,10 +66,17 @@ struct alignas(64) LedgerBlock {
 
 /// What happened that somebody must see to: bits.
 enum SingleEvent : unsigned {
-  force_is_large = 1,  ///< a bond's force comes near to what sums hold
-  force_is_lost = 2,   ///< or beyond it
-  place_is_far = 4,    ///< a particle has moved far from its anchor
-  motion_is_lost = 8   ///< a particle moves too fast for a record
+  force_is_large = 1,   ///< a bond's force is more than sums hold: it was kept apart
+  force_is_lost = 2,    ///< it is no number
+  place_is_far = 4,     ///< a particle has moved far from its anchor
+  motion_is_fast = 8,   ///< a particle comes near to a motion that records can tell
+  motion_is_lost = 16,  ///< or beyond it
+};
+
+/// What a bond adds to its ends, where that is more than sums hold.
+struct LoadApart {
+  Index near, far;             ///< rows of the ends
+  double force[3], moment[3];  ///< on the near one, as in the sums; on the far one the force is the opposite
 };
 
 /// Where bonds add their loads, by bond row: rows of sums times row_unit, of the nearer end first;
@@ -79,9 +87,10 @@ struct SingleTargets {
 };
 
 /// Displacement from its anchor, in quanta, from which on a particle gets another one; places from
-/// the origin, in quanta, and displacements of one step, in 1/4 quantum, that records cannot tell.
+/// the origin, in quanta, that records cannot tell; motion in one step, in its quanta, for which they
+/// should become coarser, and that records cannot tell.
 inline constexpr std::int32_t far_place = 1 << 29;
-inline constexpr double lost_place = 0x1p48, lost_motion = 0x1p30;
+inline constexpr double lost_place = 0x1p48, fast_motion = 0x1p28, lost_motion = 0x1p30;
 
 struct SinglePassIn {
   std::span<const BondLaw> laws;  ///< in the loop's units
@@ -94,15 +103,17 @@ struct SinglePassIn {
   std::span<const MotionRecord> motion;
   std::span<IntegerSums> sums;
   SingleTargets targets;
-  std::span<const Index> row_lo, row_hi;  ///< of the table: which end the shear of its rows is on
-  double length = 1, force = 1;           ///< m, N, quanta
-  float force_limit = 0;                  ///< quanta, of a component: beyond it is large, beyond 4 times lost
+  std::span<const Index> row_lo, row_hi;    ///< of the table: which end the shear of its rows is on
+  double length = 1, moved = 1, force = 1;  ///< m, m, N, quanta of length, motion and force
+  float force_limit = 0;                    ///< quanta, of a component: more than this is kept apart
   bool own_strength_area = false;
 };
 
 /// Bonds [first, last), both multiples of 64. Breaks are noted unless the pointer is null.
+/// @param apart  takes loads that are more than sums hold
 /// @returns SingleEvent bits
-using SinglePass = unsigned (*)(const SinglePassIn&, std::size_t first, std::size_t last, BreakNotes*);
+using SinglePass = unsigned (*)(const SinglePassIn&, std::size_t first, std::size_t last, BreakNotes*,
+                                std::vector<LoadApart>& apart);
 
 /// The kernel of a law for features that are built (see built_features).
 /// @throws std::invalid_argument
@@ -112,9 +123,9 @@ struct SingleEnergyIn {
   std::span<const BondBlock> bonds;
   std::span<const RareBlock> rare;
   std::span<const MotionRecord> motion;
-  double length = 1, force = 1;   ///< m, N, quanta
-  double shear_ratio = 0;         ///< k_s/k_n of all bonds
-  bool before_last_move = false;  ///< with places as they were before the last step
+  double length = 1, moved = 1, force = 1;  ///< m, m, N, quanta of length, motion and force
+  double shear_ratio = 0;                   ///< k_s/k_n of all bonds
+  bool before_last_move = false;            ///< with places as they were before the last step
 };
 
 /// J, stored by the undamaged ones of bonds [first, last).
@@ -127,7 +138,7 @@ struct RecordedMotion {
   std::span<const double> radius;
   std::span<MotionRecord> records;
   Vec3 origin;
-  double length = 1;  ///< m, quantum
+  double length = 1, moved = 1;  ///< m, quanta of length and motion
 };
 
 /// Records of rows [first, last) after a step.

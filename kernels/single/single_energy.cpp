@@ -6,14 +6,14 @@ namespace breccia::BRECCIA_ISA {
 
 double single_energy(const SingleEnergyIn& in, std::size_t first, std::size_t last) {
   const FloatLanes count([](auto lane) { return static_cast<float>(lane); });
-  const FloatLanes per_moved(1.0 / fine_parts), ratio(in.shear_ratio), none(0.0);
+  const FloatLanes per_moved(in.moved / in.length), ratio(in.shear_ratio), none(0.0);
   double total = 0.0;
   for (std::size_t b = first / float_width * float_width; b < last; b += float_width) {
     const BondBlock& block = in.bonds[b / bond_block];
     const RareBlock& rare = in.rare[b / bond_block];
     EndColumns ends = ends_of(in, b);
     if (in.before_last_move) ends.place -= per_moved * ends.moved;
-    const FloatLanes elastic = motion_of(ends, none).longer - lanes_at(block.plastic, b);
+    const FloatLanes elastic = motion_of(ends, none, none).longer - lanes_at(block.plastic, b);
     const Vec<FloatLanes> shear{lanes_at(block.shear_x, b), lanes_at(block.shear_y, b),
                                 lanes_at(block.shear_z, b)};
     const FloatLanes stiffness = lanes_at(block.stiffness, b);

@@ -67,7 +67,8 @@ private:
 
 /// How a batch of pairs moves in a step, from differences of integers.
 struct PairMotion {
-  Vec<FloatLanes> branch, moved, spun;  ///< quanta; 1/4 quantum
+  Vec<FloatLanes> branch, moved, spun;  ///< quanta of length; of motion
+  FloatLanes finer;                     ///< quanta of length in one of motion
   FloatLanes per_radii;                 ///< 1/(r_lo + r_hi)
   FloatLanes per_square, per_distance;  ///< 1/d^2, 1/d
   FloatLanes longer;                    ///< than between the anchors
@@ -78,9 +79,11 @@ struct PairMotion {
 
 /// (B127): |l| - |l0| = (l + l0).(l - l0)/(|l| + |l0|): without the difference of two large
 /// numbers.
-[[gnu::always_inline]] inline PairMotion motion_of(const EndColumns& ends, const FloatLanes& per_radii) {
-  const FloatLanes coarse(coarse_parts), finer(1.0 / fine_parts);
+[[gnu::always_inline]] inline PairMotion motion_of(const EndColumns& ends, const FloatLanes& per_radii,
+                                                   const FloatLanes& finer) {
+  const FloatLanes coarse(coarse_parts);
   PairMotion m;
+  m.finer = finer;
   const Vec<FloatLanes> anchors = coarse * ends.anchor;
   m.branch = anchors + ends.place;
   m.moved = ends.moved, m.spun = ends.spun;
@@ -102,12 +105,12 @@ struct PairMotion {
 template <bool rotation>
 [[gnu::always_inline]] inline Vec<FloatLanes> trial_shear(const PairMotion& m, const Vec<FloatLanes>& f,
                                                           const FloatLanes& k_s) {
-  const FloatLanes finer(1.0 / fine_parts), half(0.5);
+  const FloatLanes half(0.5);
   const FloatLanes out_of_plane = dot(f, m.branch) * m.per_square, stretch = m.along * m.per_square;
-  const FloatLanes g = finer * (k_s + half * out_of_plane), h = g * stretch + out_of_plane;
+  const FloatLanes g = m.finer * (k_s + half * out_of_plane), h = g * stretch + out_of_plane;
   Vec<FloatLanes> trial = f + g * m.moved - h * m.branch;
   if constexpr (rotation) {
-    const FloatLanes per_fine = finer * m.per_radii, twist = per_fine * dot(m.spun, m.branch);
+    const FloatLanes per_fine = m.finer * m.per_radii, twist = per_fine * dot(m.spun, m.branch);
     const FloatLanes turn = twist * m.per_square;
     trial += cross(m.branch, turn * f + (k_s * per_fine) * m.spun) - (half * twist * turn) * f;
   }
@@ -119,13 +122,12 @@ template <bool rotation>
 [[gnu::always_inline]] inline Vec<FloatLanes> slip_of(const PairMotion& m) {
   Vec<FloatLanes> slip = m.moved - (m.along * m.per_square) * m.branch;
   if constexpr (rotation) slip += m.per_radii * cross(m.branch, m.spun);
-  return FloatLanes(1.0 / fine_parts) * slip;
+  return m.finer * slip;
 }
 
 /// (B6): of this step, quanta, to second order.
 [[gnu::always_inline]] inline FloatLanes elongation_of(const PairMotion& m) {
-  const FloatLanes finer(1.0 / fine_parts * (1.0 / fine_parts));
-  const FloatLanes across = finer * dot(m.moved, m.moved) - m.rate * m.rate;
+  const FloatLanes across = (m.finer * m.finer) * dot(m.moved, m.moved) - m.rate * m.rate;
   return m.rate - FloatLanes(0.5) * m.per_distance * across;
 }
 
@@ -194,6 +196,33 @@ private:
   const Index *near_ = nullptr, *far_ = nullptr;
 };
 
+/// Loads of the lanes whose force is more than sums hold go to a list, and leave the registers.
+/// @returns whether all of them are numbers
+[[gnu::noinline, gnu::cold]] inline bool take_apart(const BondBlock& block, std::size_t first_lane,
+                                                    const FloatLanes& limit, const FloatLanes& most,
+                                                    Vec<FloatLanes>& force, Vec<FloatLanes>& moment,
+                                                    std::vector<LoadApart>& apart) {
+  constexpr double most_of_all = 0x1p58;  // sums of these are made in 64 bits
+  bool numbers = true;
+  for (std::size_t lane = 0; lane < float_width; ++lane) {
+    if (most.v[lane] <= limit.v[lane]) continue;
+    const auto widened = [&](const FloatLanes& a) {
+      return static_cast<double>(static_cast<float>(a.v[lane]));
+    };
+    if (!(widened(most) < most_of_all)) numbers = false;
+    const std::size_t at = first_lane + lane;
+    apart.push_back({block.near[at] / row_unit,
+                     block.far[at] / row_unit,
+                     {widened(force.x), widened(force.y), widened(force.z)},
+                     {widened(moment.x), widened(moment.y), widened(moment.z)}});
+  }
+  const auto fits = most <= limit;
+  const FloatLanes none(0.0);
+  force = select(fits, force, {none, none, none});
+  moment = select(fits, moment, {none, none, none});
+  return numbers;
+}
+
 /// Asks for the far ends of a later batch, 64 bonds on: some 250 ns.
 [[gnu::always_inline]] inline void prefetch_ends(const SinglePassIn& in, std::size_t b) {
   constexpr std::size_t ahead = 64;
@@ -243,10 +272,11 @@ inline constexpr bool has_short_way = !features.unloading && !features.several;
 /// @returns SingleEvent bits
 template <Features features, class Law>
 [[gnu::always_inline]] inline unsigned single_loop(const Law& law, const SinglePassIn& in, std::size_t first,
-                                                   std::size_t last, BreakNotes* notes) {
+                                                   std::size_t last, BreakNotes* notes,
+                                                   std::vector<LoadApart>& apart) {
   const BlockBonds bonds{in};
   WaitingLoads waiting(in);
-  const FloatLanes limit(in.force_limit), beyond(4.0 * in.force_limit);
+  const FloatLanes limit(in.force_limit), finer(in.moved / in.length);
   const bool ledger = !in.ledger.empty();
   bool large = false, lost = false;
   while (first < last) {
@@ -258,7 +288,7 @@ template <Features features, class Law>
       const RareBlock& rare = in.rare[b / bond_block];
       const EndColumns ends = ends_of(in, b);
       waiting.add<0>(), waiting.add<1>();
-      const PairMotion pair = motion_of(ends, lanes_at(block.per_radii, b));
+      const PairMotion pair = motion_of(ends, lanes_at(block.per_radii, b), finer);
       waiting.add<2>(), waiting.add<3>(), waiting.add<4>();
       BondConstants<FloatLanes> bond{pair.anchor_distance, bonds.load<Column::area>(b),
                                      bonds.load<Column::strength_area>(b), bonds.load<Column::stiffness>(b),
@@ -311,13 +341,17 @@ template <Features features, class Law>
       }
       waiting.add<10>(), waiting.add<11>();
       const Vec<FloatLanes> force = (total * pair.per_distance) * pair.branch + shear;
-      const FloatLanes most = larger(magnitude(force.x), larger(magnitude(force.y), magnitude(force.z)));
-      if (any(!(most <= limit))) [[unlikely]]
-        large = true, lost = lost || any(!(most <= beyond));
       waiting.add<12>(), waiting.add<13>();
       Vec<FloatLanes> moment{FloatLanes(0.0), FloatLanes(0.0), FloatLanes(0.0)};
       if constexpr (features.rotation) moment = cross(pair.per_radii * pair.branch, shear);
       waiting.add<14>(), waiting.add<15>();
+      const FloatLanes most = larger(magnitude(force.x), larger(magnitude(force.y), magnitude(force.z)));
+      if (any(!(most <= limit))) [[unlikely]] {
+        Vec<FloatLanes> left = force, turns = moment;
+        large = true, lost = !take_apart(block, b % bond_block, limit, most, left, turns, apart) || lost;
+        waiting.follow(b, left, turns);
+        continue;
+      }
       waiting.follow(b, force, moment);
     }
     if (ledger) add_lanes(loss, in.length * in.force, in.losses[first / ForceBuffer::capacity]);

@@ -20,6 +20,8 @@ using FourLongs [[gnu::vector_size(32)]] = std::int64_t;
   return __builtin_convertvector(bits, FourInts);
 }
 
+[[gnu::always_inline]] inline Four larger(const Four& a, const Four& b) { return a > b ? a : b; }
+
 [[gnu::always_inline]] inline FourInts& ints(std::int32_t (&row)[4]) {
   return *reinterpret_cast<FourInts*>(&row);
 }
@@ -40,22 +42,24 @@ public:
   Recorder(const RecordedMotion& motion, double dt)
       : m_(motion),
         per_quantum_(1.0 / motion.length),
-        fine_step_(fine_parts * dt * per_quantum_),
+        parts_(motion.length / motion.moved),
+        fine_step_(dt / motion.moved),
         origin_{motion.origin.x, motion.origin.y, motion.origin.z, 0.0} {}
 
   [[gnu::always_inline]] void record(std::size_t row, const Four& position, const Four& velocity,
                                      const Four& spin) {
     MotionRecord& r = m_.records[row];
-    const Four x = per_quantum_ * (position - origin_), motion = fine_step_ * velocity;
-    lost_ |= (FourLongs)(x * x > Four{} + lost_place * lost_place) |
-             (FourLongs)(motion * motion > Four{} + lost_motion * lost_motion);
+    const Four x = per_quantum_ * (position - origin_), motion = fine_step_ * velocity,
+               turn = (fine_step_ * m_.radius[row]) * spin;
+    farthest_ = larger(farthest_, x * x);
+    fastest_ = larger(fastest_, larger(motion * motion, turn * turn));
     const FourInts place = less(nearest(x), ints(r.anchor), coarse_parts);
     displaced_ |= place ^ (place >> 31);
-    // the fourth of each row: where the particle was, in 1/4 quantum, and where it is
-    const FourInts fine = nearest(fine_parts * x);
+    // the fourth of each row: where the particle was, in quanta of motion, and where it is
+    const FourInts fine = nearest(parts_ * x);
     const FourInts xy = __builtin_shufflevector(ints(r.place), ints(r.moved), 3, 7, 3, 7),
                    before = __builtin_shufflevector(xy, ints(r.spun), 0, 1, 7, 7);
-    const FourInts moved = less(fine, before), spun = nearest((fine_step_ * m_.radius[row]) * spin);
+    const FourInts moved = less(fine, before), spun = nearest(turn);
     ints(r.place) = __builtin_shufflevector(place, fine, 0, 1, 2, 4);
     ints(r.moved) = __builtin_shufflevector(moved, fine, 0, 1, 2, 5);
     ints(r.spun) = __builtin_shufflevector(spun, fine, 0, 1, 2, 6);
@@ -64,17 +68,19 @@ public:
     unsigned events = 0;
     for (int k = 0; k < 3; ++k) {
       if (displaced_[k] >= far_place) events |= place_is_far;
-      if (lost_[k]) events |= motion_is_lost;
+      if (fastest_[k] > fast_motion * fast_motion) events |= motion_is_fast;
+      if (fastest_[k] > lost_motion * lost_motion || farthest_[k] > lost_place * lost_place)
+        events |= motion_is_lost;
     }
     return events;
   }
 
 private:
   const RecordedMotion m_;
-  const double per_quantum_, fine_step_;
+  const double per_quantum_, parts_, fine_step_;
   const Four origin_;
-  FourLongs lost_{};
-  FourInts displaced_{};  ///< has every bit that a displacement has
+  Four farthest_{}, fastest_{};  ///< squares
+  FourInts displaced_{};         ///< has every bit that a displacement has
 };
 
 /// Views by value: what is stored through a vector could be one of them, for all a compiler knows

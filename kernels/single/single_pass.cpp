@@ -8,13 +8,13 @@ namespace {
 
 template <std::size_t k>
 BRECCIA_FLATTEN unsigned single_pass(const SinglePassIn& in, std::size_t first, std::size_t last,
-                                     BreakNotes* notes) {
+                                     BreakNotes* notes, std::vector<LoadApart>& apart) {
   constexpr Features features = single_list[k].features;
   using Law = std::variant_alternative_t<single_list[k].law, BondLaw>;
   if constexpr (features.several)
-    return single_loop<features>(LawTable<Law>{in.laws, in.law}, in, first, last, notes);
+    return single_loop<features>(LawTable<Law>{in.laws, in.law}, in, first, last, notes, apart);
   else
-    return single_loop<features>(*std::get_if<Law>(in.laws.data()), in, first, last, notes);
+    return single_loop<features>(*std::get_if<Law>(in.laws.data()), in, first, last, notes, apart);
 }
 
 template <std::size_t... k>

@@ -137,18 +137,25 @@ Outcome in_doubles(World w, const BondPass pass) {
   return out;
 }
 
-/// @param coarser  quantum of force: states may be beyond what a run comes to in one step
-Outcome in_single(World w, double coarser) {
-  w.single.quanta.force *= coarser;
+/// Last moves are what velocities make of a step.
+void fill_moving(World& w) {
   for (std::size_t row = 0; row < w.particles.size; ++row) {
-    const double unit = w.single.quanta.length / fine_parts;
+    const double unit = w.single.quanta.motion;
     const Vec3 v = (w.dt / unit) * w.particles.velocity[row];
     w.particles.last_move[row] = {unit * std::nearbyint(v.x), unit * std::nearbyint(v.y),
                                   unit * std::nearbyint(v.z)};
   }
   fill_single(w);
+}
+
+/// @param coarser  quantum of force: states may be beyond what a run comes to in one step
+Outcome in_single(World w, double coarser) {
+  w.single.quanta.force *= coarser;
+  fill_moving(w);
   Outcome out;
-  const unsigned events = w.single_pass(single_pass_in(w), 0, bond_block * w.single.bonds.size(), nullptr);
+  std::vector<LoadApart> apart;
+  const unsigned events =
+      w.single_pass(single_pass_in(w), 0, bond_block * w.single.bonds.size(), nullptr, apart);
   CHECK((events & force_is_lost) == 0);
   sync(w);
   for (std::size_t k = 0; k < w.bonds.size; ++k) {
@@ -269,17 +276,27 @@ TEST_CASE(
   World w = make_world(pairs(500, {}, random), scene::material_of(p), f, o);
   shake(w, 0.0, random);
   const Outcome want = in_doubles(w, bond_pass_for(w.laws.front(), w.features, o.instruction_set));
-  w.single.quanta.force *= 0x1p-1;
+  w.single.quanta.force *= 0x1p-4;
   World fine = w;
-  fill_single(fine);
-  CHECK((fine.single_pass(single_pass_in(fine), 0, bond_block * fine.single.bonds.size(), nullptr) &
+  fill_moving(fine);
+  std::vector<LoadApart> apart;
+  CHECK((fine.single_pass(single_pass_in(fine), 0, bond_block * fine.single.bonds.size(), nullptr, apart) &
          force_is_large) != 0);
+  REQUIRE(apart.size() > 10);
+  for (const LoadApart& load : apart) {  // each pair has rows of its own, in the sums as it was: nothing
+    const double f = fine.single.quanta.force;
+    const std::size_t k = load.near / 2;
+    CHECK(fine.single.sums[load.near].force[0] == 0);
+    const double sign = w.bonds.row_lo[k] == load.near ? f : -f;
+    CHECK(norm(sign * Vec3{load.force[0], load.force[1], load.force[2]} - want.loads[k].force) <=
+          1e-5 * norm(want.loads[k].force));
+  }
   fill_single(w);
   coarsen_force(w.single, w.laws);
   coarsen_force(w.single, w.laws);
   const SingleStore coarse = w.single;
   w.single.quanta = coarse.quanta;
-  const Outcome got = in_single(w, 16.0);
+  const Outcome got = in_single(w, 64.0);
   for (std::size_t k = 0; k < w.bonds.size; ++k)
     CHECK(norm(want.loads[k].force - got.loads[k].force) <=
           1e-5 * std::max(24e6 * w.bonds.area[k], norm(want.loads[k].force)));
