@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <optional>
 
 #include <algorithm>
 #include <cmath>
@@ -83,18 +84,22 @@ namespace {
 /// Those that will run.
 Features features_that_run(const Case& c, const Features& asked) {
   const Material& m = c.materials.front();
-  try {
-    return built_features(law_of(m, paper_shear_ratio(m.poisson_ratio)), asked,
-                          {c.precision, c.features.energy_ledger});
-  } catch (const std::invalid_argument&) {
-    if (c.precision == Precision::single)
-      fail<BadInput>(
-          "{}: run.precision \"single\" is not built for material.law \"{}\"; take \"double\", or leave "
-          "run.precision out",
-          place_of(c, "run.precision"), m.law);
-    fail<BadInput>("{}: material.law \"{}\" has no criterion \"coupled\"; leave material.criterion out",
-                   place_of(c, "material.criterion"), m.law);
-  }
+  const auto built_in = [&](Precision precision) -> std::optional<Features> {
+    try {
+      return built_features(law_of(m, paper_shear_ratio(m.poisson_ratio)), asked,
+                            {precision, c.features.energy_ledger});
+    } catch (const std::invalid_argument&) {
+      return std::nullopt;
+    }
+  };
+  if (const auto built = built_in(c.precision)) return *built;
+  if (built_in(Precision::full))
+    fail<BadInput>(
+        "{}: run.precision \"single\" is not built for material.law \"{}\"; take \"double\", or leave "
+        "run.precision out",
+        place_of(c, "run.precision"), m.law);
+  fail<BadInput>("{}: material.law \"{}\" has no criterion \"coupled\"; leave material.criterion out",
+                 place_of(c, "material.criterion"), m.law);
 }
 
 std::string describe(const Assembly& a, const Connection& connection) {

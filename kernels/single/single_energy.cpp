@@ -4,10 +4,36 @@
 
 namespace breccia::BRECCIA_ISA {
 
+namespace {
+
+/// A sum of floats that does not depend on their order, nor on who shares a register: of numbers
+/// that are rounded to multiples of a power of two a double holds sums exactly. What the coarse
+/// rounding leaves a second one takes, of floats all, for values between 2^13 and 2^71.
+class ExactSum {
+public:
+  [[gnu::always_inline]] void add(const FloatLanes& values) {
+    const Wide v = __builtin_convertvector(std::bit_cast<FloatRegister>(values.v), Wide);
+    const Wide high = (v + coarse_unit) - coarse_unit, left = v - high;
+    coarse_ += high, fine_ += (left + fine_unit) - fine_unit;
+  }
+  double value() const {
+    double coarse = 0, fine = 0;
+    for (std::size_t lane = 0; lane < float_width; ++lane) coarse += coarse_[lane], fine += fine_[lane];
+    return coarse + fine;
+  }
+
+private:
+  using Wide [[gnu::vector_size(8 * float_width)]] = double;
+  static constexpr double coarse_unit = 1.5 * 0x1p72, fine_unit = 1.5 * 0x1p42;  // 2^20, 2^-10
+  Wide coarse_{}, fine_{};
+};
+
+}  // namespace
+
 double single_energy(const SingleEnergyIn& in, std::size_t first, std::size_t last) {
   const FloatLanes count([](auto lane) { return static_cast<float>(lane); });
   const FloatLanes per_moved(in.moved / in.length), ratio(in.shear_ratio), none(0.0);
-  double total = 0.0;
+  ExactSum total;
   for (std::size_t b = first / float_width * float_width; b < last; b += float_width) {
     const BondBlock& block = in.bonds[b / bond_block];
     const RareBlock& rare = in.rare[b / bond_block];
@@ -24,9 +50,9 @@ double single_energy(const SingleEnergyIn& in, std::size_t first, std::size_t la
         to(static_cast<double>(std::min(last - b, float_width)));
     const auto counts = stiffness > none && lanes_at(rare.damage_normal, b) == none &&
                         lanes_at(rare.damage_shear, b) == none && count >= from && count < to;
-    total += sum_of_lanes(select(counts, twice, none));
+    total.add(select(counts, twice, none));
   }
-  return 0.5 * in.length * in.force * total;  // (B50)
+  return 0.5 * in.length * in.force * total.value();  // (B50)
 }
 
 }  // namespace breccia::BRECCIA_ISA

@@ -31,40 +31,41 @@ ALWAYS = """confinement_Pa peak_stress_Pa peak_deviator_Pa peak_reached strain_a
     step_estimates mass_factor scaled_particles run_time_s phases_s bond_updates_per_s bond_pass_per_s energy_error
     kinetic_ratio platen_mismatch rate_error step_error sampling_error state_hash stopped_by warnings""".split()
 
-# program: case, --set, keys beyond those of every test, the result and its band, hash of the last state with portable loops.
+# program: case, --set, keys beyond those of every test, the result and its band, hashes of the last state with portable loops, in
+# single precision (the default) and in doubles.
 # Bands are those of such small specimens: units and orders of magnitude, no strength to quote.
 # Hashes are of a law whose shear stiffness follows the tangent under yield (B107), and of stage 1 with free ends and raised limits.
 PROGRAMS = {
-    "ucs": (CYLINDER, {"test.stop_strain": 0.003}, [], ("peak_stress_Pa", 30e6, 50e6), "42c7a883c1bfe95b"),
+    "ucs": (CYLINDER, {"test.stop_strain": 0.003}, [], ("peak_stress_Pa", 30e6, 50e6), ("5c935dbf7238158b", "42c7a883c1bfe95b")),
     "triaxial": (CYLINDER, {"test.stop_strain": 0.003, "test.confinement": '["9 MPa"]'},
                  ["hydrostatic_branch", "limits_raised_Pa", "stage1_broken", "stage1_yielded"],
-                 ("peak_stress_Pa", 50e6, 90e6), "e87b956ee1c05e76"),
-    "usc": (CYLINDER, {"test.stop_strain": 0.003}, [], ("peak_stress_Pa", 50e6, 100e6), "1f6537cf3aa20aac"),
-    "hydrostatic": (CYLINDER, {"test.confinement": '"20 MPa"'}, ["bulk_modulus_Pa"], ("bulk_modulus_Pa", 8e9, 20e9), "587e6c6b720ec402"),
-    "tension": (CYLINDER, {"test.stop_strain": 0.0005}, [], ("tensile_strength_Pa", 2.5e6, 5e6), "4272ff4d50cc6590"),
-    "shear": (CYLINDER, {"test.stop_strain": 0.003, "test.confinement": '"1 MPa"'}, [], ("peak_stress_Pa", 2e6, 9e6), "fc18b4f8cf982afd"),
+                 ("peak_stress_Pa", 50e6, 90e6), ("ade82d0836a9b4d4", "e87b956ee1c05e76")),
+    "usc": (CYLINDER, {"test.stop_strain": 0.003}, [], ("peak_stress_Pa", 50e6, 100e6), ("57157148d46cbc65", "1f6537cf3aa20aac")),
+    "hydrostatic": (CYLINDER, {"test.confinement": '"20 MPa"'}, ["bulk_modulus_Pa"], ("bulk_modulus_Pa", 8e9, 20e9), ("43d9af1b59773521", "587e6c6b720ec402")),
+    "tension": (CYLINDER, {"test.stop_strain": 0.0005}, [], ("tensile_strength_Pa", 2.5e6, 5e6), ("4b304dbb552b24dd", "4272ff4d50cc6590")),
+    "shear": (CYLINDER, {"test.stop_strain": 0.003, "test.confinement": '"1 MPa"'}, [], ("peak_stress_Pa", 2e6, 9e6), ("c72b85c0857dab97", "fc18b4f8cf982afd")),
     "bts": (DISC, {"test.stop_strain": 0.003}, ["strip_corrected_strength_Pa", "first_cracks"],
-            ("tensile_strength_Pa", 1e6, 6e6), "159ba4057fbb063b"),
+            ("tensile_strength_Pa", 1e6, 6e6), ("a64c69369458f97c", "159ba4057fbb063b")),
     "cut": (BLOCK, {"test.stop_strain": 0.1, "test.platen_speed": '"2 m/s"'},
             ["cutting_force_N", "thrust_N", "largest_cutting_force_N", "specific_energy_J_per_m3"],
-            ("specific_energy_J_per_m3", 1e5, 1e8), "134ec262ecab19a5"),
-    "biaxial": (PLANE, {"test.stop_strain": 0.002, "test.confinement": '["1 MPa"]'}, [], ("peak_stress_Pa", 10e6, 100e6), "f6fe77622741ed0b"),
+            ("specific_energy_J_per_m3", 1e5, 1e8), ("f4ec4019ddc6f17e", "134ec262ecab19a5")),
+    "biaxial": (PLANE, {"test.stop_strain": 0.002, "test.confinement": '["1 MPa"]'}, [], ("peak_stress_Pa", 10e6, 100e6), ("d9fa732da2db77d0", "f6fe77622741ed0b")),
 }
 PORTABLE = os.environ | {"BRECCIA_INSTRUCTION_SET": "x86-64"}
 
 
 class Programs(ProgramTest):
-    def summary_of(self, program):
+    def summary_of(self, program, *more):
         case, sets, *_ = PROGRAMS[program]
         path = self.write("case.toml", case)
         words = [word for key, value in sets.items() for word in ("--set", f"{key}={value}")]
-        done = run(program, path, "--out", self.work / program, "--threads", 2, *words, env=PORTABLE)
+        done = run(program, path, "--out", self.work / program, "--force", "--threads", 2, *words, *more, env=PORTABLE)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return json.loads((self.work / program / "summary.json").read_text())
 
     def check(self, program):
         summary = self.summary_of(program)
-        _, _, own, (key, low, high), state = PROGRAMS[program]
+        _, _, own, (key, low, high), states = PROGRAMS[program]
         self.assertEqual([summary[name] for name in ("test", "threads", "ranks")], [program, 2, 1])
         (result,) = summary["runs"]
         missing = [name for name in ALWAYS + own if name not in result]
@@ -74,7 +75,8 @@ class Programs(ProgramTest):
                 self.assertRegex(name, "_(Pa|per_s|s|N|per_m3)$")
         self.assertTrue(low < result[key] < high, f"{key} {result[key]:.4g} is not between {low:.3g} and {high:.3g}")
         self.assertEqual(set(result["phases_s"]) >= {"bonds", "integrate", "platens"}, True)
-        self.assertEqual(result["state_hash"], state,
+        (in_doubles,) = self.summary_of(program, "--set", 'run.precision="double"')["runs"]
+        self.assertEqual((result["state_hash"], in_doubles["state_hash"]), states,
                          "the physics has changed: say why where the hash is put on record (tests/cli/test_programs.py)")
 
     def test_every_program_is_here_or_has_a_script(self):
