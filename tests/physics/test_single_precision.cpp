@@ -1,6 +1,7 @@
 // Single precision over many steps: what is at rest stays there, what vibrates keeps its energy.
 #include <doctest/doctest.h>
 
+#include <cstdlib>
 #include <random>
 
 #include "core/world/energies.hpp"
@@ -49,10 +50,10 @@ Means means_of(World& w, int steps) {
 
 }  // namespace
 
-// Forces that are rounded to a quantum push at random: an undamped specimen warms by some 1e-7 J in
-// 1e5 steps, whatever it does.
+// Forces that are rounded to a quantum push at random; the quantum is so fine that doubles drift as
+// much.
 TEST_CASE(
-    "single precision: an undamped vibration keeps its energy over 1e5 steps [drift 3e-3, in doubles 2e-4]") {
+    "single precision: an undamped vibration keeps its energy over 1e5 steps [drift 2e-4, as doubles]") {
   const auto drift = [](Precision precision) {
     World w = specimen(precision, 0.0, 0.0);
     std::mt19937_64 random(1);
@@ -69,7 +70,7 @@ TEST_CASE(
   };
   const double in_doubles = drift(Precision::full), single = drift(Precision::single);
   CHECK(std::abs(in_doubles) < 2e-4);
-  CHECK(std::abs(single) < 3e-3);
+  CHECK(std::abs(single) < 2e-4);
 }
 
 TEST_CASE("single precision: a pressed specimen at rest stays there for 1e5 steps [1e-6, no trend]") {
@@ -81,11 +82,15 @@ TEST_CASE("single precision: a pressed specimen at rest stays there for 1e5 step
   scene::drive(w, 0, 0);
   for (int k = 0; k < 20000; ++k) advance(w);
   const Means first = means_of(w, 1000);
-  for (int k = 0; k < 98000; ++k) advance(w);
+  // BRECCIA_REPEAT = 10: 1e6 steps
+  const char* times = std::getenv("BRECCIA_REPEAT");
+  for (int k = 98000 * (times ? std::atoi(times) : 1); k > 0; --k) advance(w);
   const Means last = means_of(w, 1000);
   REQUIRE(count_broken(w).tension == 0);
   REQUIRE(first.force > 100.0);
   CHECK(last.force == doctest::Approx(first.force).epsilon(1e-6));
   CHECK(last.stored == doctest::Approx(first.stored).epsilon(1e-6));
   CHECK(last.kinetic < 1e-10 * last.stored);
+  MESSAGE("force ", last.force / first.force - 1.0, ", stored ", last.stored / first.stored - 1.0,
+          " apart; kinetic over stored ", last.kinetic / last.stored);
 }
