@@ -176,8 +176,8 @@ Quanta choose_quanta(const ParticleTable& p, const BondTable& b, double dt) {
         std::max({fastest, norm(p.velocity[row]), p.spin.empty() ? 0.0 : p.radius[row] * norm(p.spin[row])});
   for (q.motion = q.length / 4.0; fastest * dt > fast_motion * q.motion;) q.motion *= 4.0;
   const unsigned most = b.size == 0 ? 1 : *std::max_element(bonds_of.begin(), bonds_of.end());
-  // of each bond of the particle that has most; moments, over the radius, are as much larger as bonds are
-  // longer than both radii
+  // of each bond of the particle that has most; moments, over the radius, are as much larger as
+  // bonds are longer than both radii
   q.force_limit = 0x1p31 / (1.25 * arm * most);
   constexpr double strain = 0.0005;  // to begin with: the finer, the less noise where forces are small
   q.force = power_of_two_above(std::max(strongest * strain / q.force_limit, 1e-30));
@@ -190,6 +190,14 @@ Quanta choose_quanta(const ParticleTable& p, const BondTable& b, double dt) {
   }
   q.origin = rounded(0.5 * (low + high), coarse_unit(q));
   return q;
+}
+
+std::size_t store_bytes(const SingleStore& s) {
+  const auto bytes = [](const auto&... columns) {
+    return ((columns.size() * sizeof(typename std::decay_t<decltype(columns)>::value_type)) + ...);
+  };
+  return bytes(s.motion, s.sums, s.bonds, s.rare, s.ledger, s.damaged, s.near, s.far, s.first_bond,
+               s.bonds_of);
 }
 
 void set_anchors(const Quanta& q, ParticleTable& p, double dt) {

@@ -46,6 +46,9 @@ struct SingleStore {
   bool empty() const { return bonds.empty(); }
 };
 
+/// Of all its columns.
+std::size_t store_bytes(const SingleStore& store);
+
 /// Particles get the columns that single precision needs: anchors where they are, no last move.
 void set_anchors(const Quanta& quanta, ParticleTable& particles, double dt);
 

@@ -55,14 +55,11 @@ void pass_in_single(World& w, const std::function<void(const SingleRange&)>& for
   w.single.events |= events;
 }
 
-void collect_single(World& w) {
-  SingleStore& s = w.single;
-  const ScatterPlan& plan = w.bond_plan;
+void add_slots(SingleStore& s, const ScatterPlan& plan) {
   for (std::size_t k = 0; k < plan.shared.size(); ++k) {
     IntegerSums& to = s.sums[plan.shared[k]];
     for (Index slot = plan.first_slot[k]; slot < plan.first_slot[k + 1]; ++slot) {
       IntegerSums& from = s.sums[plan.slots[slot]];
-      // (B129)
       for (int c = 0; c < 3; ++c) {
         to.force[c] = wrapping_sum(to.force[c], from.force[c]);
         to.moment[c] = wrapping_sum(to.moment[c], from.moment[c]);
@@ -70,6 +67,11 @@ void collect_single(World& w) {
       from = {};
     }
   }
+}
+
+void collect_single(World& w) {
+  SingleStore& s = w.single;
+  add_slots(s, w.bond_plan);
   const Rows mine = w.partition.owned();
   add_apart(s, w.particles, mine.first, mine.last);
   const Rows held =

@@ -20,6 +20,9 @@ void forget_blocks(SingleStore& store);
 using SingleRange = std::function<void(std::size_t, std::size_t, BreakNotes*)>;
 void pass_in_single(World& world, const std::function<void(const SingleRange&)>& for_bonds);
 
+/// Sums that several threads have of the same particle become one. (B129)
+void add_slots(SingleStore& store, const ScatterPlan& plan);
+
 /// The sums become forces of those particles that somebody looks at before they move, which are
 /// held or under pressure; of the others they stay sums until then.
 void collect_single(World& world);

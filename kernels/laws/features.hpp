@@ -1,6 +1,7 @@
 // What a scene asks of the bond loop, fixed at compile time: a feature that is off costs no
 // instruction.
 #pragma once
+#include <string_view>
 
 namespace breccia {
 
@@ -11,6 +12,9 @@ enum class Criterion : unsigned char { uncoupled, coupled, mohr_coulomb };
 /// What the loop over bonds computes in: doubles, or floats between integers that keep the
 /// particles' motion and their sums (docs/model.md, "Single precision").
 enum class Precision : unsigned char { full, single };
+
+/// As `run.precision` has it.
+constexpr std::string_view name_of(Precision p) { return p == Precision::single ? "single" : "double"; }
 
 /// What a loop does beside the law.
 struct LoopKind {

@@ -77,12 +77,7 @@ struct Registers {
 #endif
 }
 
-/// What a batch fetches of its ends: of the four rows of a record the differences hi - lo, but of
-/// the third the sums.
-struct EndColumns {
-  Vec<FloatLanes> place, moved, spun, anchor;
-};
-
+/// Of the four rows of two records the differences hi - lo, but of the third the sums.
 template <std::size_t part>
 [[gnu::always_inline]] inline IntRegister against(const std::int32_t* lo, const std::int32_t* hi) {
   const Wrapping l = *reinterpret_cast<const Wrapping*>(lo + part * float_width),
@@ -99,9 +94,10 @@ template <std::size_t part>
 #endif
 }
 
+/// A batch of pairs of records as `against` has them: {row 0, row 1, row 2, row 3}.
 /// @param lo_of, hi_of  of a lane: the first of the sixteen integers of its end
-template <class LoOf, class HiOf>
-[[gnu::always_inline]] inline EndColumns columns_of_ends(const LoOf& lo_of, const HiOf& hi_of) {
+template <class Rows, class LoOf, class HiOf>
+[[gnu::always_inline]] inline Rows columns_of_ends(const LoOf& lo_of, const HiOf& hi_of) {
   constexpr std::size_t parts = 4 / quads;  // registers in a record
   Registers x[parts], y[parts], z[parts];
   const auto fetch = [&]<std::size_t part>() __attribute__((always_inline)) {
@@ -133,12 +129,15 @@ struct Quartet {
   IntRegister of[4];
 };
 
-/// Of each lane a row [force, 0, moment, 0] of integers, in the order of place_of_lane.
+/// Of each lane a row [force, 0, moment, 0], in the order of place_of_lane.
+/// @param as_kept  turns floats into what the sums are made of
+template <class AsKept>
 [[gnu::always_inline]] inline void store_load_rows(const Vec<FloatLanes>& force,
-                                                   const Vec<FloatLanes>& moment, IntRow* rows) {
+                                                   const Vec<FloatLanes>& moment, const AsKept& as_kept,
+                                                   IntRow* rows) {
   const IntRegister zero{};
   const auto back = [&](const Vec<FloatLanes>& v) __attribute__((always_inline)) {
-    const IntRegister x = nearest_integers(v.x), y = nearest_integers(v.y), z = nearest_integers(v.z);
+    const IntRegister x = as_kept(v.x), y = as_kept(v.y), z = as_kept(v.z);
     const IntRegister a = low_pairs(x, y, all_lanes), b = high_pairs(x, y, all_lanes);
     const IntRegister c = low_pairs(z, zero, all_lanes), d = high_pairs(z, zero, all_lanes);
     return Quartet{{low_halves(a, c, all_lanes), high_halves(a, c, all_lanes), low_halves(b, d, all_lanes),

@@ -13,11 +13,9 @@
 
 #include "kernels/loops/bond_pass.hpp"
 #include "kernels/loops/integrate.hpp"
+#include "kernels/single/pair_motion.hpp"
 
 namespace breccia {
-
-/// Quanta of length that a unit of the anchor stands for.
-inline constexpr int coarse_parts = 512;
 
 /// What the loop sees of a particle: one line of the cache. All modulo 2^32, since only differences
 /// of neighbours count. The fourth of a row is none of the loop's: there lies the place itself, in
@@ -76,7 +74,7 @@ enum SingleEvent : unsigned {
 /// What a bond adds to its ends, where that is more than sums hold.
 struct LoadApart {
   Index near, far;             ///< rows of the ends
-  double force[3], moment[3];  ///< on the near one, as in the sums; on the far one the force is the opposite
+  double force[3], moment[3];  ///< as in the sums; the force on the far end is the opposite
 };
 
 /// Where bonds add their loads, by bond row: rows of sums times row_unit, of the nearer end first;
@@ -87,8 +85,8 @@ struct SingleTargets {
 };
 
 /// Displacement from its anchor, in quanta, from which on a particle gets another one; places from
-/// the origin, in quanta, that records cannot tell; motion in one step, in its quanta, for which they
-/// should become coarser, and that records cannot tell.
+/// the origin, in quanta, that records cannot tell; motion in one step, in its quanta, for which
+/// they should become coarser, and that records cannot tell.
 inline constexpr std::int32_t far_place = 1 << 29;
 inline constexpr double lost_place = 0x1p48, fast_motion = 0x1p28, lost_motion = 0x1p30;
 

@@ -37,7 +37,7 @@ double single_energy(const SingleEnergyIn& in, std::size_t first, std::size_t la
   for (std::size_t b = first / float_width * float_width; b < last; b += float_width) {
     const BondBlock& block = in.bonds[b / bond_block];
     const RareBlock& rare = in.rare[b / bond_block];
-    EndColumns ends = ends_of(in, b);
+    EndColumns<FloatLanes> ends = ends_of(in, b);
     if (in.before_last_move) ends.place -= per_moved * ends.moved;
     const FloatLanes elastic = motion_of(ends, none, none).longer - lanes_at(block.plastic, b);
     const Vec<FloatLanes> shear{lanes_at(block.shear_x, b), lanes_at(block.shear_y, b),

@@ -7,6 +7,7 @@
 
 #include "kernels/loops/batch_history.hpp"
 #include "kernels/math/record_rows.hpp"
+#include "kernels/single/pair_motion.hpp"
 #include "kernels/single/single.hpp"
 
 namespace breccia::BRECCIA_ISA {
@@ -65,89 +66,40 @@ private:
   }
 };
 
-/// How a batch of pairs moves in a step, from differences of integers.
-struct PairMotion {
-  Vec<FloatLanes> branch, moved, spun;  ///< quanta of length; of motion
-  FloatLanes finer;                     ///< quanta of length in one of motion
-  FloatLanes per_radii;                 ///< 1/(r_lo + r_hi)
-  FloatLanes per_square, per_distance;  ///< 1/d^2, 1/d
-  FloatLanes longer;                    ///< than between the anchors
-  FloatLanes anchor_distance;           ///< between the anchors
-  FloatLanes along;                     ///< moved . branch
-  FloatLanes rate;                      ///< of elongation, quanta a step
+template <std::size_t... part>
+inline constexpr std::index_sequence<part...> parts{};
+
+/// Sums of integers of 32 bits.
+struct IntegerRows {
+  using Sum = IntRow;
+  static constexpr std::size_t bytes_per_unit = sizeof(IntegerSums) / row_unit;  ///< of a row's address
+  [[gnu::always_inline]] static IntRegister as_kept(const FloatLanes& a) { return nearest_integers(a); }
+  [[gnu::always_inline]] static IntRow opposite(const IntRow& row) { return on_hi(row); }
+  [[gnu::always_inline]] static void add(Sum& sum, const IntRow& row) { sum += row; }
 };
-
-/// (B127): |l| - |l0| = (l + l0).(l - l0)/(|l| + |l0|): without the difference of two large
-/// numbers.
-[[gnu::always_inline]] inline PairMotion motion_of(const EndColumns& ends, const FloatLanes& per_radii,
-                                                   const FloatLanes& finer) {
-  const FloatLanes coarse(coarse_parts);
-  PairMotion m;
-  m.finer = finer;
-  const Vec<FloatLanes> anchors = coarse * ends.anchor;
-  m.branch = anchors + ends.place;
-  m.moved = ends.moved, m.spun = ends.spun;
-  m.per_radii = per_radii;
-  const FloatLanes square = dot(m.branch, m.branch);
-  const FloatLanes growth = dot(anchors + m.branch, ends.place);
-  const FloatLanes distance = sqrt(square);
-  m.anchor_distance = sqrt(square - growth);
-  m.per_square = FloatLanes(1.0) / square;
-  m.per_distance = distance * m.per_square;
-  m.longer = growth / (distance + m.anchor_distance);
-  m.along = dot(m.moved, m.branch);
-  m.rate = finer * m.per_distance * m.along;
-  return m;
-}
-
-/// The history of shear, carried along with the pair and with this step's k_s du: the turn of the
-/// normal, the twist about it and the slip in one expression without the normal (B128).
-template <bool rotation>
-[[gnu::always_inline]] inline Vec<FloatLanes> trial_shear(const PairMotion& m, const Vec<FloatLanes>& f,
-                                                          const FloatLanes& k_s) {
-  const FloatLanes half(0.5);
-  const FloatLanes out_of_plane = dot(f, m.branch) * m.per_square, stretch = m.along * m.per_square;
-  const FloatLanes g = m.finer * (k_s + half * out_of_plane), h = g * stretch + out_of_plane;
-  Vec<FloatLanes> trial = f + g * m.moved - h * m.branch;
-  if constexpr (rotation) {
-    const FloatLanes per_fine = m.finer * m.per_radii, twist = per_fine * dot(m.spun, m.branch);
-    const FloatLanes turn = twist * m.per_square;
-    trial += cross(m.branch, turn * f + (k_s * per_fine) * m.spun) - (half * twist * turn) * f;
-  }
-  return trial;
-}
-
-/// This step's, quanta.
-template <bool rotation>
-[[gnu::always_inline]] inline Vec<FloatLanes> slip_of(const PairMotion& m) {
-  Vec<FloatLanes> slip = m.moved - (m.along * m.per_square) * m.branch;
-  if constexpr (rotation) slip += m.per_radii * cross(m.branch, m.spun);
-  return m.finer * slip;
-}
-
-/// (B6): of this step, quanta, to second order.
-[[gnu::always_inline]] inline FloatLanes elongation_of(const PairMotion& m) {
-  const FloatLanes across = (m.finer * m.finer) * dot(m.moved, m.moved) - m.rate * m.rate;
-  return m.rate - FloatLanes(0.5) * m.per_distance * across;
-}
 
 /// The loads of a batch are added while the next one is worked out, a bond at a time: a processor
 /// looks some 300 instructions ahead, a batch has 600.
+template <class Rows>
 class WaitingLoads {
 public:
-  explicit WaitingLoads(const SinglePassIn& in) : in_(in), sums_(reinterpret_cast<char*>(in.sums.data())) {}
+  /// @param sums  rows of Rows::Sum
+  WaitingLoads(const SinglePassIn& in, void* sums) : in_(in), sums_(static_cast<char*>(sums)) {}
 
-  /// Bonds [part, part + 1)/16 of the batch.
-  template <std::size_t part>
-  [[gnu::always_inline]] void add() const {
-    if constexpr (part < float_width)
-      if (near_) add_bond(part);
+  /// Sixteenths of the batch.
+  template <std::size_t... part>
+  [[gnu::always_inline]] void add(std::index_sequence<part...>) const {
+    const auto add_one = [&](std::size_t k) __attribute__((always_inline)) {
+      if (k < float_width && near_) add_bond(k);
+    };
+    (add_one(part), ...);
   }
   [[gnu::always_inline]] void follow(std::size_t b, const Vec<FloatLanes>& force,
                                      const Vec<FloatLanes>& moment) {
     rows_ = rows_ == buffer_ ? buffer_ + float_width : buffer_;
-    store_load_rows(force, moment, rows_);
-    if (in_.targets.atomic) return add_atomically(b);
+    store_load_rows(force, moment, Rows::as_kept, rows_);
+    if constexpr (std::is_same_v<Rows, IntegerRows>)
+      if (in_.targets.atomic) return add_atomically(b);
     near_ = near_targets(b), far_ = far_targets(b);
   }
   void finish() const {
@@ -163,13 +115,13 @@ private:
     return in_.targets.far.empty() ? in_.bonds[b / bond_block].far + b % bond_block
                                    : in_.targets.far.data() + b;
   }
-  [[gnu::always_inline]] IntRow& sum(Index row) const {
-    return *reinterpret_cast<IntRow*>(sums_ + std::size_t{4} * row);
+  [[gnu::always_inline]] typename Rows::Sum& sum(Index row) const {
+    return *reinterpret_cast<typename Rows::Sum*>(sums_ + Rows::bytes_per_unit * row);
   }
   [[gnu::always_inline]] void add_bond(std::size_t lane) const {
     const IntRow row = rows_[place_of_lane(lane)];
-    sum(near_[lane]) += row;
-    sum(far_[lane]) += on_hi(row);  // (P3) (P18)
+    Rows::add(sum(near_[lane]), row);
+    Rows::add(sum(far_[lane]), Rows::opposite(row));  // (P3) (P18)
   }
   void add_atomically(std::size_t b) const {
     const auto add = [&](Index target, const IntRow& row) {
@@ -224,27 +176,29 @@ private:
 }
 
 /// Asks for the far ends of a later batch, 64 bonds on: some 250 ns.
-[[gnu::always_inline]] inline void prefetch_ends(const SinglePassIn& in, std::size_t b) {
+template <class Rows>
+[[gnu::always_inline]] inline void prefetch_ends(const SinglePassIn& in, const void* all_sums,
+                                                 std::size_t b) {
   constexpr std::size_t ahead = 64;
   const std::size_t later = std::min(b + ahead, bond_block * in.bonds.size() - float_width);
   const Index* const rows = in.bonds[later / bond_block].far + later % bond_block;
   const char* const motion = reinterpret_cast<const char*>(in.motion.data());
-  const char* const sums = reinterpret_cast<const char*>(in.sums.data());
+  const char* const sums = static_cast<const char*>(all_sums);
   for (std::size_t lane = 0; lane < float_width; ++lane) {
     __builtin_prefetch(motion + std::size_t{8} * rows[lane]);
-    __builtin_prefetch(sums + std::size_t{4} * rows[lane], 1);
+    __builtin_prefetch(sums + Rows::bytes_per_unit * rows[lane], 1);
   }
 }
 
 template <class In>
-[[gnu::always_inline]] inline EndColumns ends_of(const In& in, std::size_t b) {
+[[gnu::always_inline]] inline EndColumns<FloatLanes> ends_of(const In& in, std::size_t b) {
   const BondBlock& block = in.bonds[b / bond_block];
   const Index *const near = block.near + b % bond_block, *const far = block.far + b % bond_block;
   const char* const motion = reinterpret_cast<const char*>(in.motion.data());
   const auto record = [&](Index row) __attribute__((always_inline)) {
     return reinterpret_cast<const std::int32_t*>(motion + std::size_t{8} * row);
   };
-  return columns_of_ends(
+  return columns_of_ends<EndColumns<FloatLanes>>(
       [&](std::size_t k) __attribute__((always_inline)) { return record(near[k]); },
       [&](std::size_t k) __attribute__((always_inline)) { return record(far[k]); });
 }
@@ -269,13 +223,14 @@ template <Features features, class Law>
 inline constexpr bool has_short_way = !features.unloading && !features.several;
 
 /// Bonds [first, last). To be flattened by the caller (see bond_loop.hpp).
+/// @param sums  rows of Rows::Sum
 /// @returns SingleEvent bits
-template <Features features, class Law>
-[[gnu::always_inline]] inline unsigned single_loop(const Law& law, const SinglePassIn& in, std::size_t first,
-                                                   std::size_t last, BreakNotes* notes,
+template <Features features, class Rows = IntegerRows, class Law>
+[[gnu::always_inline]] inline unsigned single_loop(const Law& law, const SinglePassIn& in, void* sums,
+                                                   std::size_t first, std::size_t last, BreakNotes* notes,
                                                    std::vector<LoadApart>& apart) {
   const BlockBonds bonds{in};
-  WaitingLoads waiting(in);
+  WaitingLoads<Rows> waiting(in, sums);
   const FloatLanes limit(in.force_limit), finer(in.moved / in.length);
   const bool ledger = !in.ledger.empty();
   bool large = false, lost = false;
@@ -283,13 +238,13 @@ template <Features features, class Law>
     const std::size_t end = std::min(first + ForceBuffer::capacity, last);
     BondLosses<FloatLanes> loss{};
     for (std::size_t b = first; b < end; b += float_width) {
-      prefetch_ends(in, b);
+      prefetch_ends<Rows>(in, sums, b);
       const BondBlock& block = in.bonds[b / bond_block];
       const RareBlock& rare = in.rare[b / bond_block];
-      const EndColumns ends = ends_of(in, b);
-      waiting.add<0>(), waiting.add<1>();
-      const PairMotion pair = motion_of(ends, lanes_at(block.per_radii, b), finer);
-      waiting.add<2>(), waiting.add<3>(), waiting.add<4>();
+      const EndColumns<FloatLanes> ends = ends_of(in, b);
+      waiting.add(parts<0, 1>);
+      const PairMotion<FloatLanes> pair = motion_of(ends, lanes_at(block.per_radii, b), finer);
+      waiting.add(parts<2, 3, 4>);
       BondConstants<FloatLanes> bond{pair.anchor_distance, bonds.load<Column::area>(b),
                                      bonds.load<Column::strength_area>(b), bonds.load<Column::stiffness>(b),
                                      FloatLanes(0.0)};
@@ -298,13 +253,13 @@ template <Features features, class Law>
                                    bonds.load<Column::shear_z>(b)};
       const FloatLanes k_s = shear_stiffness_of(law, b, bond.stiffness);
       const Vec<FloatLanes> trial = trial_shear<features.rotation>(pair, before, k_s);
-      waiting.add<5>(), waiting.add<6>(), waiting.add<7>();
+      waiting.add(parts<5, 6, 7>);
       const FloatLanes elastic = pair.longer - lanes_at(block.plastic, b);
       const FloatLanes normal = bond.stiffness * elastic;
       Vec<FloatLanes> shear = trial;
       FloatLanes total = normal;
       if constexpr (features.contact_damping) total += bond.damping * pair.rate;
-      waiting.add<8>(), waiting.add<9>();
+      waiting.add(parts<8, 9>);
       // most laws need it on the long way alone
       const auto stretch = [&] { return pair.longer + lanes_at(rare.anchored, b); };
       FloatLanes::Mask acts(true);  // the law, and not springs and dashpots alone
@@ -339,12 +294,12 @@ template <Features features, class Law>
           keep_losses<features>(law, bond, strain, elongation_of(pair), was, h, action, bonds, b, loss);
         total = action.along, shear = action.shear;
       }
-      waiting.add<10>(), waiting.add<11>();
-      const Vec<FloatLanes> force = (total * pair.per_distance) * pair.branch + shear;
-      waiting.add<12>(), waiting.add<13>();
+      waiting.add(parts<10, 11>);
+      const Vec<FloatLanes> force = force_of(pair, total, shear);
+      waiting.add(parts<12, 13>);
       Vec<FloatLanes> moment{FloatLanes(0.0), FloatLanes(0.0), FloatLanes(0.0)};
-      if constexpr (features.rotation) moment = cross(pair.per_radii * pair.branch, shear);
-      waiting.add<14>(), waiting.add<15>();
+      if constexpr (features.rotation) moment = moment_of(pair, shear);
+      waiting.add(parts<14, 15>);
       const FloatLanes most = larger(magnitude(force.x), larger(magnitude(force.y), magnitude(force.z)));
       if (any(!(most <= limit))) [[unlikely]] {
         Vec<FloatLanes> left = force, turns = moment;

@@ -12,9 +12,11 @@ BRECCIA_FLATTEN unsigned single_pass(const SinglePassIn& in, std::size_t first, 
   constexpr Features features = single_list[k].features;
   using Law = std::variant_alternative_t<single_list[k].law, BondLaw>;
   if constexpr (features.several)
-    return single_loop<features>(LawTable<Law>{in.laws, in.law}, in, first, last, notes, apart);
+    return single_loop<features>(LawTable<Law>{in.laws, in.law}, in, in.sums.data(), first, last, notes,
+                                 apart);
   else
-    return single_loop<features>(*std::get_if<Law>(in.laws.data()), in, first, last, notes, apart);
+    return single_loop<features>(*std::get_if<Law>(in.laws.data()), in, in.sums.data(), first, last, notes,
+                                 apart);
 }
 
 template <std::size_t... k>

@@ -7,7 +7,7 @@ from .study import read_study
 
 COLOURS = (SHEAR, STORED, DISSIPATED, TENSION, KINETIC, INK, "#56B4E9")  # of the number of spheres
 MARKERS = "osD^vP*"
-NEEDED = {"spheres", "bonds", "threads", "bond_storage", "particle_storage", "sums", "ns_per_bond_median",
+NEEDED = {"spheres", "bonds", "threads", "precision", "numbers", "bond_storage", "particle_storage", "sums", "ns_per_bond_median",
           "ns_per_bond_least", "ns_per_bond_most", "limit_ns_per_bond"}
 
 
@@ -28,17 +28,19 @@ class Layouts:
 
 
 def layout_of(run):
-    return run["bond_storage"], run["particle_storage"], run["sums"]
+    return tuple(run[name] for name in ("precision", "bond_storage", "particle_storage", "sums", "numbers"))
 
 
 def label_of(layout, production):
-    """What tells a layout from production, the first of a study."""
-    bonds, particles, sums = layout
+    """What tells a layout from production in its precision."""
+    precision, bonds, particles, sums, numbers = layout
     if layout == production:
-        return f"production: bonds in {bonds},\nparticles in {particles}, {sums} sums"
-    if bonds != production[0]:
+        return f"{precision} precision: bonds in {bonds},\nparticles in {particles}, {sums} sums of {numbers}"
+    if bonds != production[1]:
         return f"bonds in {bonds}"
-    return f"particles in {particles}" if particles != production[1] else f"sums: {sums}"
+    if particles != production[2]:
+        return f"particles in {particles}"
+    return f"sums: {sums}" if sums != production[3] else f"sums of {numbers}"
 
 
 def draw_layouts(folder, path):
@@ -49,7 +51,7 @@ def draw_layouts(folder, path):
                               sharex=True)
     for panel, threads in zip(axes[0], shown):
         draw_threads(panel, study, threads)
-    axes[0][0].set_yticks(range(len(study.layouts)), [label_of(layout, study.layouts[0]) for layout in study.layouts])
+    axes[0][0].set_yticks(range(len(study.layouts)), [label_of(layout, next(one for one in study.layouts if one[0] == layout[0])) for layout in study.layouts])
     axes[0][0].set_ylim(len(study.layouts) - 0.45, -0.55)
     axes[0][0].set_xlim(0, None)
     handles = [Line2D([], [], color=colour, marker=marker, linestyle="none", label=f"{spheres:,} spheres")

@@ -10,7 +10,7 @@ from .study import read_study
 COLOURS = (SHEAR, TENSION, STORED, KINETIC, DISSIPATED)  # of the number of spheres
 MARKERS = {"private": "o", "gather": "s", "atomic": "^"}
 PUBLISHED_MARKERS = {"OpenMP": "D", "MPI": "v"}
-NEEDED = {"study", "scatter", "threads", "spheres", "step_median_s", "step_least_s", "step_most_s", "efficiency"}
+NEEDED = {"study", "precision", "scatter", "threads", "spheres", "step_median_s", "step_least_s", "step_most_s", "efficiency"}
 
 
 @dataclass
@@ -36,13 +36,13 @@ class Scaling:
         self.runs, self.published = content["runs"], content["published"]
 
     def lines(self, study):
-        """Of one study: runs of the same scatter and, in strong scaling, the same specimen are a line."""
+        """Of one study: runs of the same precision, scatter and, in strong scaling, the same specimen are a line."""
         groups = {}
         for run in self.runs:
             if run["study"] == study:
-                groups.setdefault((run["scatter"], run["spheres"] if study == "strong" else None), []).append(run)
+                groups.setdefault(((run["precision"], run["scatter"]), run["spheres"] if study == "strong" else None), []).append(run)
         sizes = sorted({p["spheres"] for p in self.published} | {run["spheres"] for run in self.runs if run["study"] == "strong"})
-        several = len({scatter for scatter, _ in groups}) > 1
+        several = len({way for way, _ in groups}) > 1
         return ([self.measured_line(runs, spheres, sizes, several) for (_, spheres), runs in groups.items()] +
                 ([published_line(p, colour_of(p["spheres"], sizes)) for p in self.published] if study == "strong" else []))
 
@@ -51,11 +51,12 @@ class Scaling:
         threads, step, least, most, efficiency = (
             np.array([run[name] for run in runs], dtype=float)
             for name in ("threads", "step_median_s", "step_least_s", "step_most_s", "efficiency"))
-        scatter = runs[0]["scatter"]
+        precision, scatter = runs[0]["precision"], runs[0]["scatter"]
         label = f"{spheres:,} spheres" if spheres else f"{runs[0]['spheres'] // runs[0]['threads']:,} spheres per thread"
         colour = colour_of(spheres, sizes) if spheres else INK
-        style = {"color": colour, "marker": MARKERS.get(scatter, "o"), "markersize": 6}
-        return Line(label + (f", {scatter}" if several else ""), style, threads, step, np.stack([step - least, most - step]),
+        style = {"color": colour, "marker": MARKERS.get(scatter, "o"), "markersize": 6,
+                 "linestyle": "-" if precision == "single" else (0, (1, 1.2))}
+        return Line(label + (f", {precision}, {scatter}" if several else ""), style, threads, step, np.stack([step - least, most - step]),
                     efficiency * threads, efficiency)
 
 

@@ -9,13 +9,16 @@ import statistics
 from programs import ProgramTest, command, finish, main, plot, run, tree
 
 TINY = ("--spheres", "500,300", "--threads", "2,1", "--repeat", "3", "--block", "0.001")
-COLUMNS = ("spheres bonds threads bond_storage particle_storage sums ns_per_bond_median ns_per_bond_least ns_per_bond_most "
+COLUMNS = ("spheres bonds threads precision bond_storage particle_storage sums numbers ns_per_bond_median ns_per_bond_least ns_per_bond_most "
            "bonds_per_s time_over_production limit_ns_per_bond limited_by fraction_of_limit difference colours "
            "passes_per_block".split())
-WORDS = {"bond_storage", "particle_storage", "sums", "limited_by"}
-LAYOUTS = [("columns", "records", "private"), ("records", "records", "private"), ("blocks of 8", "records", "private"),
-           ("blocks of 16", "records", "private"), ("columns", "columns", "private"), ("columns", "records", "gather"),
-           ("columns", "records", "atomic"), ("columns", "records", "all atomic"), ("columns", "records", "colours")]
+WORDS = {"precision", "numbers", "bond_storage", "particle_storage", "sums", "limited_by"}
+LAYOUTS = [("single", "blocks of 16", "records", sums, numbers) for sums, numbers in
+           (("private", "int32"), ("atomic", "int32"), ("private", "int64"), ("private", "float"))]
+LAYOUTS += [("double", bonds, particles, sums, "double") for bonds, particles, sums in
+            (("columns", "records", "private"), ("records", "records", "private"), ("blocks of 8", "records", "private"),
+             ("blocks of 16", "records", "private"), ("columns", "columns", "private"), ("columns", "records", "gather"),
+             ("columns", "records", "atomic"), ("columns", "records", "all atomic"), ("columns", "records", "colours"))]
 
 
 class Layouts(ProgramTest):
@@ -34,7 +37,7 @@ class Layouts(ProgramTest):
         self.assertEqual(sorted(tree(self.folder)), ["layouts.csv", "layouts.json"])
 
     def test_rows(self):
-        rows = [(r["spheres"], r["threads"], (r["bond_storage"], r["particle_storage"], r["sums"])) for r in self.content["runs"]]
+        rows = [(r["spheres"], r["threads"], (r["precision"], r["bond_storage"], r["particle_storage"], r["sums"], r["numbers"])) for r in self.content["runs"]]
         self.assertEqual(rows, [(spheres, threads, layout) for spheres in (300, 500) for threads in (1, 2) for layout in LAYOUTS])
 
     def test_both_files_agree(self):
@@ -67,21 +70,24 @@ class Layouts(ProgramTest):
 
     def test_all_compute_the_same(self):
         for one in self.content["runs"]:
-            self.assertLess(one["difference"], 1e-12)
+            self.assertLess(one["difference"], 1e-12 if one["precision"] == "double" else 1e-5)
             self.assertEqual(one["colours"] > 0, one["sums"] == "colours")
 
     def test_limits(self):
         operations = self.content["operations_per_bond"]
-        self.assertEqual(operations["total"], sum(operations[name] for name in ("additions", "multiplications", "divisions", "roots")))
-        limits = {(one["spheres"], one["threads"]): one for one in self.content["limits"]}
-        self.assertEqual(len(limits), 4)
+        self.assertEqual(list(operations), ["single", "double"])
+        for of in operations.values():
+            self.assertEqual(of["total"], sum(of[name] for name in ("additions", "multiplications", "divisions", "roots")))
+        limits = {(one["spheres"], one["threads"], one["precision"]): one for one in self.content["limits"]}
+        self.assertEqual(len(limits), 8)
         for one in limits.values():
+            wider = 2 if one["precision"] == "single" else 1
             moved = one["read_bytes_per_bond"] + one["written_bytes_per_bond"]
             self.assertAlmostEqual(one["memory_ns_per_bond"] * one["bandwidth_bytes_per_s"] / (1e9 * moved), 1, places=12)
-            self.assertAlmostEqual(one["arithmetic_ns_per_bond"] * one["peak_operations_per_s"] / (1e9 * operations["total"]), 1,
-                                   places=12)
+            total = operations[one["precision"]]["total"]
+            self.assertAlmostEqual(wider * one["arithmetic_ns_per_bond"] * one["peak_operations_per_s"] / (1e9 * total), 1, places=12)
         for one in self.content["runs"]:
-            limit = limits[one["spheres"], one["threads"]]
+            limit = limits[one["spheres"], one["threads"], one["precision"]]
             by = max(("memory", "arithmetic"), key=lambda name: limit[f"{name}_ns_per_bond"])
             self.assertEqual(one["limited_by"], by)
             self.assertAlmostEqual(one["limit_ns_per_bond"] / limit[f"{by}_ns_per_bond"], 1, places=12)
@@ -99,7 +105,7 @@ class Layouts(ProgramTest):
         pictures = self.work / "pictures"
         result = plot(self.folder, "--out", pictures)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
-        self.assertIn("9 layouts, 2 sizes, 2 numbers of threads", result.stdout)
+        self.assertIn("13 layouts, 2 sizes, 2 numbers of threads", result.stdout)
         self.assertEqual([path.name for path in pictures.iterdir()], ["layouts.png"])
         self.assertLess((pictures / "layouts.png").stat().st_size, 300_000)
 

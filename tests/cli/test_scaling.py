@@ -10,11 +10,14 @@ from programs import ProgramTest, command, finish, main, plot, run, tree
 
 TINY = ("--spheres", "300,500", "--spheres-per-thread", "300", "--threads", "2,1", "--steps", "20", "--repeat", "3", "--warm-up", "20")
 PHASES = "search confinement halo bonds gather contacts platens ledger integrate measure output checkpoint".split()
-COLUMNS = ("study scatter ranks threads spheres bonds broken_bonds steps repeats step_median_s step_least_s step_most_s ns_per_bond "
+COLUMNS = ("study precision scatter ranks threads spheres bonds broken_bonds steps repeats step_median_s step_least_s step_most_s ns_per_bond "
            "bond_updates_per_s speed_up efficiency halo_rows imbalance".split() + [f"share_{name}" for name in PHASES] +
            "share_other table_bytes_per_bond peak_rss_bytes".split())
 ONLY_IN_JSON = "block_s phases_s alpha time_step_s table_bytes state_hash".split()
-WORDS = {"study", "scatter"}
+WORDS = {"study", "precision", "scatter"}
+
+
+WAYS = (("single", "private"), ("double", "private"), ("double", "gather"))
 
 
 class Scaling(ProgramTest):
@@ -22,7 +25,7 @@ class Scaling(ProgramTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.folder = cls.shelf / "study"
-        cls.result = run("scaling", *TINY, "--scatter", "private,gather", "--out", cls.folder)
+        cls.result = run("scaling", *TINY, "--scatter", "private,gather", "--precision", "double,single", "--out", cls.folder)
 
     def setUp(self):
         super().setUp()
@@ -35,19 +38,17 @@ class Scaling(ProgramTest):
         with (self.folder / "scaling.csv").open(newline="") as file:
             return list(csv.DictReader(file))
 
-    def series(self, study, scatter):
-        """Runs of one study and scatter by spheres and threads."""
-        return {(r["spheres"], r["threads"]): r for r in self.read_json()["runs"] if (r["study"], r["scatter"]) == (study, scatter)}
+    def series(self, study, way):
+        """Runs of one study, precision and scatter by spheres and threads."""
+        return {(r["spheres"], r["threads"]): r for r in self.read_json()["runs"] if (r["study"], r["precision"], r["scatter"]) == (study, *way)}
 
     def test_files(self):
         self.assertEqual(sorted(tree(self.folder)), ["scaling.csv", "scaling.json"])
 
     def test_points(self):
-        points = [tuple(row[name] for name in ("study", "scatter", "ranks", "threads", "spheres")) for row in self.read_csv()]
-        strong = [("strong", scatter, "1", threads, spheres) for spheres in ("300", "500") for scatter in ("private", "gather")
-                  for threads in ("1", "2")]
-        weak = [("weak", scatter, "1", threads, spheres) for threads, spheres in (("1", "300"), ("2", "600"))
-                for scatter in ("private", "gather")]
+        points = [tuple(row[name] for name in ("study", "precision", "scatter", "ranks", "threads", "spheres")) for row in self.read_csv()]
+        strong = [("strong", *way, "1", threads, spheres) for spheres in ("300", "500") for way in WAYS for threads in ("1", "2")]
+        weak = [("weak", *way, "1", threads, spheres) for threads, spheres in (("1", "300"), ("2", "600")) for way in WAYS]
         self.assertEqual(points, strong + weak)
 
     def test_both_files_agree(self):
@@ -76,16 +77,16 @@ class Scaling(ProgramTest):
             self.assertAlmostEqual(one["phases_s"]["bonds"] / sum(one["block_s"]), one["share_bonds"], places=12)
 
     def test_speed_up_of_strong_scaling(self):
-        for scatter in ("private", "gather"):
-            runs = self.series("strong", scatter)
+        for way in WAYS:
+            runs = self.series("strong", way)
             for (spheres, threads), one in runs.items():
                 speed_up = runs[spheres, 1]["step_median_s"] / one["step_median_s"]
                 self.assertAlmostEqual(one["speed_up"] / speed_up, 1, places=12)
                 self.assertAlmostEqual(one["efficiency"] * threads / speed_up, 1, places=12)
 
     def test_speed_up_of_weak_scaling(self):
-        for scatter in ("private", "gather"):
-            runs = self.series("weak", scatter)
+        for way in WAYS:
+            runs = self.series("weak", way)
             first, second = runs[300, 1], runs[600, 2]
             speed_up = second["bond_updates_per_s"] / first["bond_updates_per_s"]
             self.assertEqual((first["speed_up"], first["efficiency"]), (1, 1))
@@ -98,11 +99,12 @@ class Scaling(ProgramTest):
             self.assertGreater(one["peak_rss_bytes"], one["table_bytes"])
 
     def test_every_point_runs_the_same_test(self):
-        runs = self.series("strong", "gather")
-        for spheres in (300, 500):
-            self.assertEqual(runs[spheres, 1]["state_hash"], runs[spheres, 2]["state_hash"])
-        self.assertNotEqual(runs[300, 1]["state_hash"], runs[500, 1]["state_hash"])
-        self.assertEqual(self.series("weak", "gather")[300, 1]["state_hash"], runs[300, 1]["state_hash"])
+        for way in (("single", "private"), ("double", "gather")):
+            runs = self.series("strong", way)
+            for spheres in (300, 500):
+                self.assertEqual(runs[spheres, 1]["state_hash"], runs[spheres, 2]["state_hash"])
+            self.assertNotEqual(runs[300, 1]["state_hash"], runs[500, 1]["state_hash"])
+            self.assertEqual(self.series("weak", way)[300, 1]["state_hash"], runs[300, 1]["state_hash"])
 
     def test_machine(self):
         content = self.read_json()
@@ -122,7 +124,7 @@ class Scaling(ProgramTest):
         pictures = self.work / "pictures"
         result = plot(self.folder, "--out", pictures)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
-        self.assertIn("12 points", result.stdout)
+        self.assertIn("18 points", result.stdout)
         self.assertEqual([path.name for path in pictures.iterdir()], ["scaling.png"])
         self.assertLess((pictures / "scaling.png").stat().st_size, 300_000)
 
@@ -160,6 +162,8 @@ class Options(ProgramTest):
 
     def test_refusals(self):
         self.refused("--scatter", 'did you mean "private"', options=("--scatter", "gather,privat"))
+        self.refused("--scatter", "--precision double", options=("--scatter", "gather"))
+        self.refused("--precision", '"single", "double"', options=("--precision", "half"))
         self.refused("--only", '"strong", "weak"', options=("--only", "both"))
         self.refused("--steps", "multiple of 20", "200 or 220", options=("--steps", 210))
         self.refused("--warm-up", "multiple of 20", "nearest: 20", options=("--warm-up", 7))

@@ -17,4 +17,7 @@ struct ByteCount {
 /// written.
 ByteCount bytes_per_bond(const BondTable& bonds, const ParticleTable& particles);
 
+/// The same in single precision: blocks of bonds, records and sums of particles.
+ByteCount single_bytes_per_bond(const BondTable& bonds, const ParticleTable& particles);
+
 }  // namespace breccia

@@ -16,4 +16,9 @@ std::string_view name_of(Summation sums) {
   return names[static_cast<std::size_t>(sums)];
 }
 
+std::string_view numbers_of(const Layout& layout) {
+  constexpr std::array<std::string_view, 3> names{"int32", "int64", "float"};
+  return layout.precision == Precision::single ? names[static_cast<std::size_t>(layout.number)] : "double";
+}
+
 }  // namespace breccia

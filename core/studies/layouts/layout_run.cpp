@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "core/base/threads.hpp"
 #include "core/world/loop_views.hpp"
+#include "core/world/single_precision.hpp"
+#include "core/world/sync.hpp"
 
 namespace breccia {
 namespace {
@@ -38,9 +41,14 @@ LayoutRun::LayoutRun(const World& scene, const Layout& layout, int threads)
   }
   // the ranges of a colour are its own; with one range nothing is planned
   const int ranges = layout.sums == Summation::colours ? 1 : threads;
-  world_.bond_plan = plan_scatter(kind_of(layout.sums), ranges, bond_batch, b.row_lo, b.row_hi,
-                                  std::span(b.gid_lo).first(b.size), std::span(b.gid_hi).first(b.size),
-                                  b.arm_offset, p.size);
+  const std::size_t batch = in_single() ? std::size_t{ForceBuffer::capacity} : bond_batch;
+  world_.bond_plan =
+      plan_scatter(kind_of(layout.sums), ranges, batch, b.row_lo, b.row_hi, std::span(b.gid_lo).first(b.size),
+                   std::span(b.gid_hi).first(b.size), b.arm_offset, p.size);
+  if (in_single()) {
+    start_in_single();
+    return;
+  }
   if (layout.bonds != BondStorage::columns) {
     stored_ = store_bonds(b, layout.bonds);
     stored_pass_ = stored_pass_for(layout.bonds, world_.options.instruction_set);
@@ -55,6 +63,71 @@ LayoutRun::LayoutRun(const World& scene, const Layout& layout, int threads)
   }
 }
 
+/// The scene, which ran in doubles, goes over to single precision.
+void LayoutRun::start_in_single() {
+  World& w = world_;
+  const LoopKind kind{Precision::single, w.ledger.enabled};
+  w.options.precision = Precision::single;
+  w.features = built_features(w.laws.front(), w.features, kind);
+  w.single_pass = single_pass_for(w.laws.front(), w.features, w.options.instruction_set);
+  start_single(w);
+  if (layout_.number == SumNumber::int32) return;
+  sums_pass_ = sums_pass_for(layout_.number, w.options.instruction_set);
+  (layout_.number == SumNumber::int64) ? long_sums_.resize(w.single.sums.size())
+                                       : float_sums_.resize(w.single.sums.size());
+}
+
+/// Records say what a step of `dt` moves; dashpots are kept for it.
+void LayoutRun::move_by(double dt) {
+  if (dt == moved_by_) return;
+  sync(world_);
+  const Quanta& q = world_.single.quanta;
+  ParticleTable& p = world_.particles;
+  for (std::size_t row = 0; row < p.size; ++row) {
+    const Vec3 moved = (dt / q.motion) * p.velocity[row];
+    p.last_move[row] =
+        q.motion * Vec3{std::nearbyint(moved.x), std::nearbyint(moved.y), std::nearbyint(moved.z)};
+  }
+  const Column<IntegerSums> sums = world_.single.sums;  // go on growing
+  world_.dt = moved_by_ = dt;
+  fill_single(world_);
+  world_.single.sums = sums;
+}
+
+template <class Go>
+void LayoutRun::with_sums(const Go& go) {
+  if (!long_sums_.empty()) return go(long_sums_);
+  if (!float_sums_.empty()) return go(float_sums_);
+  go(world_.single.sums);
+}
+
+void LayoutRun::pass_in_single() {
+  const SinglePassIn in = single_pass_in(world_);
+  const ScatterPlan& plan = world_.bond_plan;
+  std::mutex adds;
+  for_ranges(threads_, [&](int range) {
+    const std::size_t first = plan.first(range), last = plan.first(range + 1);
+    std::vector<LoadApart> apart;
+    if (sums_pass_)
+      with_sums([&](auto& sums) { sums_pass_(in, sums.data(), first, last, apart); });
+    else
+      world_.single_pass(in, first, last, nullptr, apart);
+    if (apart.empty()) return;
+    const std::scoped_lock lock(adds);
+    world_.single.apart.insert(world_.single.apart.end(), apart.begin(), apart.end());
+  });
+  if (!sums_pass_) return add_slots(world_.single, plan);
+  with_sums([&](auto& sums) {
+    for (std::size_t k = 0; k < plan.shared.size(); ++k)
+      for (Index slot = plan.first_slot[k]; slot < plan.first_slot[k + 1]; ++slot) {
+        auto& from = sums[plan.slots[slot]];
+        auto& to = sums[plan.shared[k]];
+        for (int c = 0; c < 3; ++c) to.force[c] += from.force[c], to.moment[c] += from.moment[c];
+        from = {};
+      }
+  });
+}
+
 void LayoutRun::pass_over(const BondPassIn& in, std::size_t first, std::size_t last, const Scatter& to) {
   if (stored_pass_)
     stored_pass_(in, stored_.data(), first, last, to);
@@ -63,6 +136,10 @@ void LayoutRun::pass_over(const BondPassIn& in, std::size_t first, std::size_t l
 }
 
 void LayoutRun::pass(double dt) {
+  if (in_single()) {
+    move_by(dt);
+    return pass_in_single();
+  }
   BondTable& b = world_.bonds;
   ScatterPlan& plan = world_.bond_plan;
   BondPassIn in = bond_pass_in(world_);
@@ -111,12 +188,36 @@ void LayoutRun::clear_sums() {
   std::fill(p.torque.begin(), p.torque.end(), Vec3{});
   std::fill(columns_.force.begin(), columns_.force.end(), Vec3{});
   std::fill(columns_.torque.begin(), columns_.torque.end(), Vec3{});
+  world_.single.apart.clear();
+  with_sums([](auto& sums) {
+    std::fill(sums.begin(), sums.end(), typename std::decay_t<decltype(sums)>::value_type{});
+  });
 }
 
-PassResult LayoutRun::result() const {
+PassResult LayoutRun::result() {
   const ParticleTable& p = world_.particles;
   PassResult r;
-  for (std::size_t k = 0; k < p.size; ++k) {
+  if (in_single()) {
+    sync(world_);
+    const double unit = world_.single.quanta.force;
+    const auto in_si = [](const auto& of, double per_unit) {
+      return per_unit *
+             Vec3{static_cast<double>(of[0]), static_cast<double>(of[1]), static_cast<double>(of[2])};
+    };
+    with_sums([&](const auto& sums) {
+      for (std::size_t k = 0; k < p.size; ++k) {
+        r.force.push_back(in_si(sums[k].force, unit));
+        r.torque.push_back(in_si(sums[k].moment, unit * p.radius[k]));
+      }
+    });
+    ParticleTable apart = p;
+    const std::vector<LoadApart> kept = world_.single.apart;
+    add_apart(world_.single, apart, 0, p.size);
+    world_.single.apart = kept;
+    for (std::size_t k = 0; k < p.size; ++k)
+      r.force[k] += apart.force[k] - p.force[k], r.torque[k] += apart.torque[k] - p.torque[k];
+  }
+  for (std::size_t k = 0; k < p.size && !in_single(); ++k) {
     r.force.push_back(in_columns() ? columns_.force[k] : p.force[k]);
     r.torque.push_back(in_columns() ? columns_.torque[k] : p.torque[k]);
   }

@@ -61,9 +61,9 @@ LayoutScene make_layout_scene(std::size_t spheres, const Material& material, int
   options.cracks = false;
   LayoutScene scene{make_world(assembly, material, factor, options), {}};
   World& w = scene.world;
-  w.platens.velocity = {Vec3{0, 0, 0.02}, Vec3{0, 0, -0.02}};  // m/s
+  w.platens.velocity = {Vec3{0, 0, 0.2}, Vec3{0, 0, -0.2}};  // m/s
   for (int k = 0; k < 20; ++k) advance(w);
-  scene.bytes = bytes_per_bond(w.bonds, w.particles);
+  scene.bytes = {single_bytes_per_bond(w.bonds, w.particles), bytes_per_bond(w.bonds, w.particles)};
   return scene;
 }
 
@@ -74,11 +74,17 @@ std::vector<LayoutResult> study_layouts(const LayoutScene& scene, int threads, c
   // depend on it
   const double dt = 1e-6 * w.dt;
 
-  const MachinePeak peak = measure_peak(w.options.instruction_set, threads, scene.bytes.set * bonds,
+  const MachinePeak peak = measure_peak(w.options.instruction_set, threads, scene.bytes.full.set * bonds,
                                         timing.repeat, timing.block_seconds);
-  const PassLimit limit =
-      limit_of(peak, scene.bytes.moved(), static_cast<double>(operations_per_bond().total()));
-  LayoutRun production(w, layouts.front(), 1);
+  const MachinePeak single_peak =
+      measure_peak(w.options.instruction_set, threads, scene.bytes.single.set * bonds, timing.repeat,
+                   timing.block_seconds);
+  // a register holds twice as many floats as doubles
+  const Both<PassLimit> limit{
+      limit_of(single_peak, scene.bytes.single.moved(),
+               0.5 * static_cast<double>(single_operations_per_bond().total())),
+      limit_of(peak, scene.bytes.full.moved(), static_cast<double>(operations_per_bond().total()))};
+  LayoutRun production(w, {}, 1);
   const PassResult wanted = three_passes(production, w.dt);
 
   std::vector<LayoutRun> runs;
@@ -89,7 +95,8 @@ std::vector<LayoutResult> study_layouts(const LayoutScene& scene, int threads, c
     LayoutResult& r = results.emplace_back();
     r.layout = layout;
     r.colours = run.colours();
-    r.peak = peak, r.limit = limit;
+    r.peak = layout.precision == Precision::single ? single_peak : peak;
+    r.limit = limit.of(layout.precision);
     r.difference = largest_difference(wanted, three_passes(run, w.dt));
     r.passes = passes_for(run, dt, timing.block_seconds);
   }

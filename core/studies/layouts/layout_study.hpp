@@ -11,12 +11,21 @@
 
 namespace breccia {
 
-/// Beyond this a layout does not compute the same.
-inline constexpr double allowed_difference = 1e-9;
+/// Beyond this a layout does not compute the same as production in doubles.
+constexpr double allowed_difference(Precision precision) {
+  return precision == Precision::single ? 1e-5 : 1e-9;
+}
+
+/// Of both precisions.
+template <class T>
+struct Both {
+  T single, full;
+  const T& of(Precision precision) const { return precision == Precision::single ? single : full; }
+};
 
 struct LayoutScene {
-  World world;
-  ByteCount bytes;  ///< per bond
+  World world;            ///< in doubles
+  Both<ByteCount> bytes;  ///< per bond
 };
 
 /// A concrete cylinder, 150 x 300 mm, a few steps into its compression; bonds are intact.
@@ -32,7 +41,7 @@ struct LayoutTiming {
 struct LayoutResult {
   Layout layout;
   std::size_t colours = 0;       ///< of coloured bonds, else 0
-  double difference = 0;         ///< from production, see largest_difference
+  double difference = 0;         ///< from production in doubles, see largest_difference
   std::size_t passes = 0;        ///< in a block
   std::vector<double> block_ns;  ///< ns per bond and pass, of each block
   MachinePeak peak;

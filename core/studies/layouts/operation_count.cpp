@@ -2,6 +2,7 @@
 
 #include "kernels/laws/bond_force.hpp"
 #include "kernels/laws/dempack.hpp"
+#include "kernels/single/pair_motion.hpp"
 
 namespace breccia {
 namespace {
@@ -36,6 +37,26 @@ OperationCount operations_per_bond() {
     force_lo += force, force_hi -= force;
     torque_lo += (Counted(0.5) + arm_offset) * moment;
     torque_hi += (Counted(0.5) - arm_offset) * moment;
+  });
+}
+
+OperationCount single_operations_per_bond() {
+  const DempackLaw law = concrete();
+  const double quantum = 0x1p-43, length = 1e-2 / quantum, area = 7e-5;
+  const EndColumns<Counted> ends{
+      {0, 0, 1e-6 * length}, {1, 0, 1}, {0, 1, 0}, {0, 0, std::round(length / coarse_parts)}};
+  const Counted per_radii = 1 / length, finer = 0.25, plastic = 0;
+  const BondConstants<Counted> bond{length, area, area, law.young * area / length, 10.0};
+  const Vec<Counted> before{0.1, 0.1, 0};
+  return operations_of([&] {
+    const PairMotion<Counted> pair = motion_of(ends, per_radii, finer);
+    const Vec<Counted> shear = trial_shear<true>(pair, before, law.shear_ratio * bond.stiffness);
+    const Counted elastic = pair.longer - plastic, normal = bond.stiffness * elastic;
+    const Counted total = normal + bond.damping * pair.rate;
+    (void)may_yield(law, bond, elastic, elastic);
+    (void)may_fail<false>(law.failure, limits_of(law, bond), normal, dot(shear, shear));
+    (void)force_of(pair, total, shear);
+    (void)moment_of(pair, shear);
   });
 }
 

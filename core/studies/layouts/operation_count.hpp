@@ -57,4 +57,7 @@ OperationCount operations_of(const Work& work) {
 /// law, and the sums of force and torque at both ends.
 OperationCount operations_per_bond();
 
+/// The same in single precision, of floats: what is done to integers is not counted.
+OperationCount single_operations_per_bond();
+
 }  // namespace breccia

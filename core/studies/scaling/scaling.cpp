@@ -57,10 +57,10 @@ LoadTest compression() {
   return test;
 }
 
-/// True for runs that are compared with each other: same study and scatter, and in strong scaling
+/// True for runs that are compared with each other: same study and way, and in strong scaling
 /// the same specimen.
 bool same_series(const ScalingPoint& a, const ScalingPoint& b) {
-  return a.study == b.study && a.scatter == b.scatter &&
+  return a.study == b.study && a.way() == b.way() &&
          (a.study == ScalingStudy::weak || a.spheres == b.spheres);
 }
 
@@ -103,6 +103,7 @@ ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& mate
   reset_peak_memory();
   WorldOptions options;
   options.scatter = point.scatter;
+  options.precision = point.precision;
   options.threads = point.threads;
   World w = make_world(specimen.assembly, material, specimen.factor, options);
   ScalingRun run;
@@ -131,7 +132,8 @@ ScalingRun measure_scaling(const ScalingSpecimen& specimen, const Material& mate
   run.broken = broken.tension + broken.shear;
   run.alpha = w.alpha;
   run.time_step = w.dt;
-  run.table_bytes = column_bytes(w.particles) + column_bytes(w.bonds) + column_bytes(w.contacts);
+  run.table_bytes =
+      column_bytes(w.particles) + column_bytes(w.bonds) + column_bytes(w.contacts) + store_bytes(w.single);
   run.peak_bytes = peak_memory();
   const World& whole = gather_to_root(w);
   run.state_hash = state_hash(whole.particles, whole.bonds);

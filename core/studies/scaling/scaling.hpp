@@ -20,6 +20,10 @@ struct ScalingPoint {
   ScatterKind scatter = ScatterKind::private_sums;
   int threads = 1;
   std::size_t spheres = 0;
+  Precision precision = Precision::single;
+
+  /// How the loop computes and sums.
+  std::pair<Precision, ScatterKind> way() const { return {precision, scatter}; }
 };
 
 /// The steps of a point, counted from the start of the test.

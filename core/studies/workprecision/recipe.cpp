@@ -4,8 +4,6 @@
 
 namespace breccia {
 
-std::string_view name_of(Precision precision) { return precision == Precision::single ? "single" : "double"; }
-
 std::string describe(const Recipe& r) {
   const std::string damping = r.damping.translation == r.damping.rotation
                                   ? fmt::format("{}", r.damping.translation)

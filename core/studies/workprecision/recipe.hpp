@@ -21,8 +21,6 @@ struct Recipe {
   ScatterKind scatter = ScatterKind::private_sums;
 };
 
-std::string_view name_of(Precision precision);
-
 /// Everything in a line; equal if and only if the recipes are. "step 0.8, 0.1 m/s, explicit, mass
 /// 1, damping 0.1, full, private"
 std::string describe(const Recipe& recipe);

@@ -18,19 +18,23 @@ const std::string about =
     "timed.";
 
 const std::string results = R"(
-bonds      columns (production), records, blocks of 8 and of 16 bonds side by side
+precision  single: bonds in blocks of 16, particles in records of 64 bytes; double
+bonds      columns (production in double), records, blocks of 8 and of 16 bonds side by side
 particles  records of motion and of sums (production), columns
 sums       private (production), gather, atomic (shared ends only), all atomic, colours
-A row differs from production in one of the three, and is held against its forces and history.
+of         what sums are made of; in single integers of 32 bits (production), of 64, or floats
+The first row of a precision is its production, the others differ from it in one thing; all are held against
+the forces and history of production in double.
 
 limit      the longer of bytes/bandwidth and operations/peak, both measured in the same run: a stream over a
-           set of the same size, and multiplications and additions that wait for nothing
+           set of the same size, and multiplications and additions of doubles that wait for nothing, of floats
+           twice as many
 
 DIR/layouts.csv   a line for each size, number of threads and layout: median, least and most ns per bond,
                   bonds per second, limit, difference from production
 DIR/layouts.json  the same with every block, bytes and operations per bond, bandwidth, peak, the machine
 `scripts/plot DIR` draws them. Threads are not bound to cores: put taskset or numactl in front for that.
-Exit code 1: a layout differs from production by more than 1e-9.)";
+Exit code 1: a layout differs by more than 1e-9, in single 1e-5.)";
 
 }  // namespace
 

@@ -29,7 +29,11 @@ LayoutScene packed(std::size_t spheres, const Material& material, int threads, P
 
 /// @returns whether every layout computes what production does
 bool run_study(const LayoutsOptions& options) {
-  LayoutsResults results{describe_machine(), "concrete", options.timing, operations_per_bond(), {}};
+  LayoutsResults results{describe_machine(),
+                         "concrete",
+                         options.timing,
+                         {single_operations_per_bond(), operations_per_bond()},
+                         {}};
   const Material material = shipped_material(results.material, "breccia-layouts");
   const FolderLock lock = claim_run_folder(options.out, options.force ? Old::replace : Old::refuse,
                                            {{"layouts.csv", "layouts.json"}, {}});
@@ -51,11 +55,13 @@ bool run_study(const LayoutsOptions& options) {
       hold_at(HoldPoint::measurement);
       say(progress, format_layouts_group(group, results.operations));
       for (const LayoutResult& r : group.results) {
-        if (r.difference <= allowed_difference) continue;
+        if (r.difference <= allowed_difference(r.layout.precision)) continue;
         same = false;
-        fmt::print(stderr, "breccia-layouts: bonds {}, particles {}, sums {}: differs by {:.1e}\n",
-                   name_of(r.layout.bonds), name_of(r.layout.particles), name_of(r.layout.sums),
-                   r.difference);
+        fmt::print(
+            stderr,
+            "breccia-layouts: {} precision, bonds {}, particles {}, sums {} of {}: differs by {:.1e}\n",
+            name_of(r.layout.precision), name_of(r.layout.bonds), name_of(r.layout.particles),
+            name_of(r.layout.sums), numbers_of(r.layout), r.difference);
       }
     }
   }

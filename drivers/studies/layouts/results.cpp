@@ -15,9 +15,11 @@ Json values_of(const LayoutsGroup& group, const LayoutResult& r) {
   return {{"spheres", group.spheres},
           {"bonds", group.bonds},
           {"threads", group.threads},
+          {"precision", name_of(r.layout.precision)},
           {"bond_storage", name_of(r.layout.bonds)},
           {"particle_storage", name_of(r.layout.particles)},
           {"sums", name_of(r.layout.sums)},
+          {"numbers", numbers_of(r.layout)},
           {"ns_per_bond_median", r.median()},
           {"ns_per_bond_least", r.spread().least},
           {"ns_per_bond_most", r.spread().most},
@@ -31,14 +33,16 @@ Json values_of(const LayoutsGroup& group, const LayoutResult& r) {
           {"passes_per_block", r.passes}};
 }
 
-Json limits_of(const LayoutsGroup& group) {
-  const LayoutResult& r = group.results.front();
+/// Of production in a precision.
+Json limits_of(const LayoutsGroup& group, const LayoutResult& r) {
+  const ByteCount& bytes = group.bytes.of(r.layout.precision);
   return {{"spheres", group.spheres},
           {"bonds", group.bonds},
           {"threads", group.threads},
-          {"set_bytes_per_bond", group.bytes.set},
-          {"read_bytes_per_bond", group.bytes.read},
-          {"written_bytes_per_bond", group.bytes.written},
+          {"precision", name_of(r.layout.precision)},
+          {"set_bytes_per_bond", bytes.set},
+          {"read_bytes_per_bond", bytes.read},
+          {"written_bytes_per_bond", bytes.written},
           {"bandwidth_bytes_per_s", r.peak.bandwidth},
           {"peak_operations_per_s", r.peak.operations},
           {"memory_ns_per_bond", 1e9 * r.limit.memory},
@@ -62,7 +66,8 @@ void write_layouts_csv(const std::filesystem::path& file, const LayoutsResults& 
 void write_layouts_json(const std::filesystem::path& file, const LayoutsResults& results) {
   Json limits = Json::array(), runs = Json::array();
   for (const LayoutsGroup& group : results.groups) {
-    limits.push_back(limits_of(group));
+    for (const Precision precision : {Precision::single, Precision::full})
+      limits.push_back(limits_of(group, production(group, precision)));
     for (const LayoutResult& r : group.results)
       runs.emplace_back(values_of(group, r))["block_ns_per_bond"] = r.block_ns;
   }
@@ -72,7 +77,8 @@ void write_layouts_json(const std::filesystem::path& file, const LayoutsResults&
       {"machine", json_of(results.machine)},
       {"test",
        {{"material", results.material}, {"law", "dempack"}, {"block_s", results.timing.block_seconds}}},
-      {"operations_per_bond", of(results.operations)},
+      {"operations_per_bond",
+       {{"single", of(results.operations.single)}, {"double", of(results.operations.full)}}},
       {"limits", limits},
       {"runs", runs}};
   atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');

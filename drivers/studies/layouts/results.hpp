@@ -13,15 +13,18 @@ namespace breccia {
 struct LayoutsGroup {
   std::size_t spheres = 0, bonds = 0;
   int threads = 1;
-  ByteCount bytes;
+  Both<ByteCount> bytes;
   std::vector<LayoutResult> results;  ///< production first
 };
+
+/// The first of its precision.
+const LayoutResult& production(const LayoutsGroup& group, Precision precision);
 
 struct LayoutsResults {
   Machine machine;
   std::string material;
   LayoutTiming timing;
-  OperationCount operations;
+  Both<OperationCount> operations;
   std::vector<LayoutsGroup> groups;
 };
 
@@ -32,7 +35,7 @@ void write_layouts_json(const std::filesystem::path& file, const LayoutsResults&
 /// What the study is made of, before it runs.
 std::string layouts_heading(const LayoutsResults& results);
 
-/// A line with the limits and a table with a row for each layout.
-std::string format_layouts_group(const LayoutsGroup& group, const OperationCount& operations);
+/// A line with the limits for each precision, and a table with a row for each layout.
+std::string format_layouts_group(const LayoutsGroup& group, const Both<OperationCount>& operations);
 
 }  // namespace breccia

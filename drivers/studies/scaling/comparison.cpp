@@ -33,6 +33,8 @@ std::optional<double> published_on(const PublishedTimes& p, int cores) {
   return p.seconds[static_cast<std::size_t>(at - p.cores.begin())];
 }
 
+using Way = std::pair<Precision, ScatterKind>;
+
 /// Strong scaling of as many spheres as the published test had.
 std::vector<const ScalingRun*> runs_like(const PublishedTimes& p, const ScalingResults& results) {
   std::vector<const ScalingRun*> found;
@@ -43,9 +45,9 @@ std::vector<const ScalingRun*> runs_like(const PublishedTimes& p, const ScalingR
 
 /// s, for as many steps as the published test had.
 std::optional<double> measured_on(const PublishedTimes& p, const std::vector<const ScalingRun*>& runs,
-                                  ScatterKind scatter, int threads) {
+                                  const Way& way, int threads) {
   for (const ScalingRun* run : runs)
-    if (run->point.scatter == scatter && run->point.threads == threads)
+    if (run->point.way() == way && run->point.threads == threads)
       return static_cast<double>(p.steps) * step_time(*run).median;
   return std::nullopt;
 }
@@ -55,8 +57,8 @@ std::optional<double> measured_on(const PublishedTimes& p, const std::vector<con
 std::string table_of(const Tests& tests, const std::vector<const ScalingRun*>& runs) {
   const PublishedTimes& first = *tests.front();
   std::set<int> cores(first.cores.begin(), first.cores.end());
-  std::set<ScatterKind> scatters;
-  for (const ScalingRun* run : runs) cores.insert(run->point.threads), scatters.insert(run->point.scatter);
+  std::set<Way> ways;
+  for (const ScalingRun* run : runs) cores.insert(run->point.threads), ways.insert(run->point.way());
   std::vector<TextColumn> columns;
   const auto add = [&](const std::string& name, std::string_view unit,
                        const std::function<std::string(int)>& cell) {
@@ -69,14 +71,15 @@ std::string table_of(const Tests& tests, const std::vector<const ScalingRun*>& r
       const auto seconds = published_on(*p, n);
       return seconds ? fmt::format("{:.2f}", *seconds) : std::string();
     });
-  for (const ScatterKind scatter : scatters) {
-    add(fmt::format("breccia {}", name_of(scatter)), "s", [&](int n) {
-      const auto seconds = measured_on(first, runs, scatter, n);
+  for (const Way& way : ways) {
+    const std::string name = fmt::format("{} {}", name_of(way.first), name_of(way.second));
+    add("breccia " + name, "s", [&](int n) {
+      const auto seconds = measured_on(first, runs, way, n);
       return seconds ? four_digits(*seconds) : std::string();
     });
     for (const PublishedTimes* p : tests)
-      add(fmt::format("{}/{}", p->parallel, name_of(scatter)), "1", [&, p](int n) {
-        const auto theirs = published_on(*p, n), ours = measured_on(*p, runs, scatter, n);
+      add(fmt::format("{}/{}", p->parallel, name), "1", [&, p](int n) {
+        const auto theirs = published_on(*p, n), ours = measured_on(*p, runs, way, n);
         return theirs && ours ? fmt::format("{:.1f}", *theirs / *ours) : std::string();
       });
   }

@@ -29,6 +29,9 @@ constexpr Word<ScatterKind> word_of(ScatterKind kind) { return {name_of(kind), k
 constexpr std::array<Word<ScatterKind>, 3> scatters{
     word_of(ScatterKind::private_sums), word_of(ScatterKind::gather), word_of(ScatterKind::atomic)};
 
+constexpr Word<Precision> word_of(Precision precision) { return {name_of(precision), precision}; }
+constexpr std::array<Word<Precision>, 2> precisions{word_of(Precision::single), word_of(Precision::full)};
+
 template <class Words, class Value>
 std::string_view word_for(const Words& words, Value value) {
   return std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.value == value; })->word;
@@ -90,7 +93,7 @@ std::string_view name_of(ScalingStudy study) { return word_for(studies, study); 
 std::optional<int> read_scaling_options(int argc, char** argv, ScalingOptions& o) {
   CLI::App app(about, "breccia-scaling");
   o.threads = doubling(available_cores());
-  std::vector<std::string> scatter{"private"};
+  std::vector<std::string> scatter{"private"}, precision{"single"};
   std::string only;
   const CLI::Range spheres(fewest_spheres, most_spheres,
                            fmt::format("{} to {}", fewest_spheres, most_spheres));
@@ -112,6 +115,9 @@ std::optional<int> read_scaling_options(int argc, char** argv, ScalingOptions& o
   list("--scatter", scatter, "how forces on shared spheres are summed: private, gather, atomic [private]")
       ->type_name("WORD,WORD...")
       ->check(one_of(scatters));
+  list("--precision", precision, "of the loop over bonds: single, double [single]")
+      ->type_name("WORD,WORD...")
+      ->check(one_of(precisions));
   app.add_option("--only", only, "one study: strong, weak [both]")->type_name("WORD")->check(one_of(studies));
   app.add_option("--steps", o.blocks.steps,
                  fmt::format("time steps in a block, a multiple of {} [{}]", ScalingBlocks::steps_per_row,
@@ -137,6 +143,10 @@ std::optional<int> read_scaling_options(int argc, char** argv, ScalingOptions& o
     if (const ScatterKind kind = value_of(scatters, word);
         std::find(o.scatter.begin(), o.scatter.end(), kind) == o.scatter.end())
       o.scatter.push_back(kind);
+  o.precision.clear();
+  for (const Word<Precision>& one : precisions)
+    if (std::find(precision.begin(), precision.end(), one.word) != precision.end())
+      o.precision.push_back(one.value);
   if (!only.empty()) o.only = value_of(studies, only);
   return std::nullopt;
 }
@@ -145,12 +155,20 @@ std::vector<ScalingPoint> scaling_points(const ScalingOptions& o, int ranks) {
   if (o.blocks.all_steps() > ScalingBlocks::most_steps)
     fail<BadInput>("--steps: {} blocks of {} and the warm-up are {} steps; at most {}, while the test lasts",
                    o.blocks.repeat, o.blocks.steps, o.blocks.all_steps(), ScalingBlocks::most_steps);
+  // what single precision sums is the same in any order: it has no gather
+  std::vector<std::pair<Precision, ScatterKind>> ways;
+  for (const Precision precision : o.precision)
+    for (const ScatterKind scatter : o.scatter)
+      if (precision == Precision::full || scatter != ScatterKind::gather)
+        ways.emplace_back(precision, scatter);
+  if (ways.empty())
+    fail<BadInput>("--scatter: gather is a way of doubles; take --precision double, or private or atomic");
   std::vector<ScalingPoint> points;
   if (o.only != ScalingStudy::weak)
     for (const std::size_t spheres : o.spheres)
-      for (const ScatterKind scatter : o.scatter)
+      for (const auto& [precision, scatter] : ways)
         for (const int threads : o.threads)
-          points.push_back({ScalingStudy::strong, scatter, threads, spheres});
+          points.push_back({ScalingStudy::strong, scatter, threads, spheres, precision});
   if (o.only == ScalingStudy::strong) return points;
   for (const int threads : o.threads) {
     const std::size_t all_threads = static_cast<std::size_t>(threads) * static_cast<std::size_t>(ranks);
@@ -158,8 +176,8 @@ std::vector<ScalingPoint> scaling_points(const ScalingOptions& o, int ranks) {
     if (spheres > most_spheres)
       fail<BadInput>("--spheres-per-thread: {} on {} threads are {} spheres; at most {} on that many",
                      o.spheres_per_thread, all_threads, spheres, most_spheres / all_threads);
-    for (const ScatterKind scatter : o.scatter)
-      points.push_back({ScalingStudy::weak, scatter, threads, spheres});
+    for (const auto& [precision, scatter] : ways)
+      points.push_back({ScalingStudy::weak, scatter, threads, spheres, precision});
   }
   return points;
 }

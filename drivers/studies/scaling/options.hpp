@@ -15,6 +15,7 @@ struct ScalingOptions {
   std::size_t spheres_per_thread = 35000;          ///< of weak scaling
   std::vector<int> threads;                        ///< rising
   std::vector<ScatterKind> scatter{ScatterKind::private_sums};
+  std::vector<Precision> precision{Precision::single};
   std::optional<ScalingStudy> only;  ///< nothing: both
   ScalingBlocks blocks;
   std::filesystem::path out = "out/scaling";
@@ -26,7 +27,8 @@ struct ScalingOptions {
 std::optional<int> read_scaling_options(int argc, char** argv, ScalingOptions& options);
 
 /// In the order in which they are measured; points of the same specimen follow each other.
-/// @throws BadInput: more steps than a test has, or more spheres than can be packed
+/// @throws BadInput: more steps than a test has, more spheres than can be packed, or sums that no
+/// precision has
 /// @param ranks  of the job, each with the threads of a point
 std::vector<ScalingPoint> scaling_points(const ScalingOptions& options, int ranks = 1);
 

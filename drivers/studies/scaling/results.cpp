@@ -17,6 +17,7 @@ Json values_of(const ScalingRun& run, const std::vector<ScalingRun>& runs) {
   const MedianAndRange t = step_time(run);
   const ScalingGain gain = gain_of(run, runs);
   Json values{{"study", name_of(run.point.study)},
+              {"precision", name_of(run.point.precision)},
               {"scatter", name_of(run.point.scatter)},
               {"ranks", run.ranks},
               {"threads", run.point.threads},

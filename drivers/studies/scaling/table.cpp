@@ -18,6 +18,7 @@ std::vector<TextColumn> columns_of(const std::vector<const ScalingRun*>& shown,
     for (const ScalingRun* run : shown) column.cells.push_back(cell(*run));
   };
   using R = ScalingRun;
+  add("precision", "", [](const R& r) { return std::string(name_of(r.point.precision)); });
   add("scatter", "", [](const R& r) { return std::string(name_of(r.point.scatter)); });
   add("spheres", "1", [](const R& r) { return fmt::format("{}", r.point.spheres); });
   add("bonds", "1", [](const R& r) { return fmt::format("{}", r.bonds); });
@@ -59,8 +60,8 @@ std::string format_scaling_tables(const ScalingResults& results) {
 }
 
 std::string describe(const ScalingPoint& p) {
-  return fmt::format("{}, {}: {} spheres, {} thread{}", name_of(p.study), name_of(p.scatter), p.spheres,
-                     p.threads, p.threads == 1 ? "" : "s");
+  return fmt::format("{}, {} precision, {}: {} spheres, {} thread{}", name_of(p.study), name_of(p.precision),
+                     name_of(p.scatter), p.spheres, p.threads, p.threads == 1 ? "" : "s");
 }
 
 std::string describe(const ScalingRun& run, const std::vector<ScalingRun>& runs) {
