@@ -48,13 +48,14 @@ void broadcast_contacts(World& w) {
   World* whole = w.replica.get();
   struct Step {
     double dt, critical_dt, slack;
-    std::uint64_t looks, rebuilds, contacts;
+    std::uint64_t looks, local_looks, rebuilds, contacts;
   } step{};
   if (whole)
     step = {whole->dt,
             whole->critical_dt,
             whole->neighbour_list.slack,
             whole->step_monitor.looks,
+            whole->step_monitor.local_looks,
             whole->neighbour_list.rebuilds,
             whole->contacts.size};
   broadcast(ranks, &step, sizeof(step));
@@ -71,6 +72,7 @@ void broadcast_contacts(World& w) {
   w.dt = step.dt;
   w.critical_dt = step.critical_dt;
   w.step_monitor.looks = step.looks;
+  w.step_monitor.local_looks = step.local_looks;
   w.neighbour_list.slack = step.slack;
   w.neighbour_list.rebuilds = step.rebuilds;
   w.neighbour_list.next_search += static_cast<std::uint64_t>(w.neighbour_list.every);

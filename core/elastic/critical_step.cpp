@@ -29,6 +29,7 @@ Eigen::VectorXd roots_of_masses(const StepScene& s) {
     by_mass.segment<3>(at).setConstant(1.0 / std::sqrt(p.mass[row]));
     by_mass.segment<3>(at + 3).setConstant(
         1.0 / std::sqrt(inertia(s.freedom.inertia_factor, p.mass[row], p.radius[row])));
+    if (!s.fixed.empty() && s.fixed[row]) by_mass.segment<6>(at).setZero();
     if (s.freedom.plane) by_mass[at + 1] = by_mass[at + 3] = by_mass[at + 5] = 0.0;
   }
   return by_mass;

@@ -26,6 +26,7 @@ struct StepScene {
   double reach = 0;                     ///< m, that particles may approach each other
   Freedom freedom;
   int threads = 1;
+  std::span<const std::uint8_t> fixed = {};  ///< by row: held where they are; empty: none
 };
 
 /// What is known about a step. With K and C the stiffness and damping of bonds and contacts, the

@@ -12,7 +12,8 @@ namespace breccia {
 struct StepMonitor {
   double margin = 0;                         ///< of the stability number below 1, at the last look
   std::vector<std::pair<Gid, Gid>> counted;  ///< contacts that were in it, rising
-  std::uint64_t looks = 0;                   ///< estimates after the first
+  std::uint64_t looks = 0;                   ///< estimates of all of it after the first
+  std::uint64_t local_looks = 0;             ///< around new contacts alone
   double first_dt = 0;                       ///< s, what the run began with
 };
 

@@ -70,8 +70,9 @@ struct RunSummary {
   double time_step_s = 0;         ///< at the start
   double lowest_time_step_s = 0;  ///< the run's last: a step is never raised again
   std::optional<double> critical_time_step_s;
-  std::uint64_t step_estimates = 0;  ///< after the first, because new contacts asked for them
-  double mass_factor = 1;            ///< total mass over the true one
+  std::uint64_t step_estimates = 0;        ///< after the first, because new contacts asked for them
+  std::uint64_t local_step_estimates = 0;  ///< of what is near these contacts alone
+  double mass_factor = 1;                  ///< total mass over the true one
   std::uint64_t scaled_particles = 0;
   double run_time_s = 0;  ///< wall time of the time loop
   /// wall time of each phase of the step, in its order

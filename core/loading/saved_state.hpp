@@ -44,6 +44,7 @@ void for_each_number_of_world(W& w, Visit&& visit) {
 
   visit("step_room", w.step_monitor.margin);
   visit("step_counted", w.step_monitor.counted);
+  visit("step_local_looks", w.step_monitor.local_looks);
   visit("step_looks", w.step_monitor.looks);
   visit("step_first_dt", w.step_monitor.first_dt);
 

@@ -311,6 +311,7 @@ RunSummary summarise(const LaboratoryTest& test, const World& w, const Assembly&
   run.lowest_time_step_s = w.dt;
   run.critical_time_step_s = w.critical_dt;
   run.step_estimates = w.step_monitor.looks;
+  run.local_step_estimates = w.step_monitor.local_looks;
   run.mass_factor = w.mass_scaling.factor;
   run.scaled_particles = w.mass_scaling.scaled;
   run.run_time_s = result.run_time;

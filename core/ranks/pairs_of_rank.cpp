@@ -1,5 +1,6 @@
 #include "core/ranks/pairs_of_rank.hpp"
 
+#include "core/tables/part_of_table.hpp"
 #include "kernels/loops/scatter_block.hpp"
 
 namespace breccia {
@@ -20,30 +21,12 @@ PairsOfRank pairs_in(const Partition& s, const Table& t) {
   }
   pairs.owned = pairs.rows.size();
   const auto pad = [&] {
-    while (pairs.rows.size() % ForceBuffer::capacity != 0) pairs.rows.push_back(PairsOfRank::none);
+    while (pairs.rows.size() % ForceBuffer::capacity != 0) pairs.rows.push_back(no_row);
   };
   pad();
   pairs.rows.insert(pairs.rows.end(), ghosts.begin(), ghosts.end());
   pad();
   return pairs;
-}
-
-/// A table of these rows of another one.
-template <class Table>
-Table part_of_table(const Table& whole, const PairsOfRank& pairs) {
-  Table t;
-  t.size = pairs.owned;
-  t.padded = pairs.rows.size();
-  t.for_each_column([&]<class T>(const ColumnInfo& info, Column<T>& column) {
-    whole.for_each_column([&]<class U>(const ColumnInfo& other, const Column<U>& from) {
-      if constexpr (std::is_same_v<T, U>) {
-        if (other.name != info.name || from.empty()) return;
-        column.reserve(t.padded);
-        for (const std::size_t k : pairs.rows) column.push_back(k == PairsOfRank::none ? T{} : from[k]);
-      }
-    });
-  });
-  return t;
 }
 
 template <class Table>
@@ -67,10 +50,10 @@ PairsOfRank pairs_of_rank(const Partition& partition, const ContactTable& contac
 }
 
 BondTable part_of_bonds(const BondTable& whole, const PairsOfRank& pairs) {
-  BondTable b = part_of_table(whole, pairs);
+  BondTable b = part_of_table(whole, pairs.rows, pairs.owned);
   if (whole.size == 0) return b;
   for (std::size_t k = 0; k < b.padded; ++k) {
-    if (pairs.rows[k] != PairsOfRank::none) continue;
+    if (pairs.rows[k] != no_row) continue;
     b.row_lo[k] = whole.row_lo[0], b.row_hi[k] = whole.row_hi[0];
     b.rest_length[k] = whole.rest_length[0], b.area[k] = whole.area[0];
     if (!b.strength_area.empty()) b.strength_area[k] = whole.strength_area[0];
@@ -79,7 +62,7 @@ BondTable part_of_bonds(const BondTable& whole, const PairsOfRank& pairs) {
 }
 
 ContactTable part_of_contacts(const ContactTable& whole, const PairsOfRank& pairs) {
-  return part_of_table(whole, pairs);
+  return part_of_table(whole, pairs.rows, pairs.owned);
 }
 
 std::vector<char> interface_blocks_of(const Partition& s, const BondTable& b) {

@@ -7,9 +7,8 @@
 namespace breccia {
 
 struct PairsOfRank {
-  std::vector<std::size_t> rows;  ///< of the whole table, in the order that the rank has; `none`: padding
+  std::vector<std::size_t> rows;  ///< of the whole table, in the order that the rank has; no_row: padding
   std::size_t owned = 0;
-  static constexpr std::size_t none = ~std::size_t{0};
 };
 
 PairsOfRank pairs_of_rank(const Partition& partition, const BondTable& bonds);

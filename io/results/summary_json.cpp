@@ -58,6 +58,7 @@ void for_each_field(Run& run, Visit&& visit) {
   visit("lowest_time_step_s", run.lowest_time_step_s);
   visit("critical_time_step_s", run.critical_time_step_s);
   visit("step_estimates", run.step_estimates);
+  visit("local_step_estimates", run.local_step_estimates);
   visit("mass_factor", run.mass_factor);
   visit("scaled_particles", run.scaled_particles);
   visit("run_time_s", run.run_time_s);

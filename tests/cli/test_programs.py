@@ -28,7 +28,7 @@ PLANE = CYLINDER.replace('shape = "cylinder"', "dimensions = 2").replace("concre
 ALWAYS = """confinement_Pa peak_stress_Pa peak_deviator_Pa peak_reached strain_at_peak young_modulus_Pa young_modulus_50_Pa
     poisson_ratio crack_initiation_stress_Pa crack_damage_stress_Pa tensile_strength_Pa alpha particles bonds coordination
     dropped_bonds short_bonds broken_tension broken_shear localisation contact_searches length_quantum_m force_quantum_N steps time_step_s lowest_time_step_s critical_time_step_s
-    step_estimates mass_factor scaled_particles run_time_s phases_s bond_updates_per_s bond_pass_per_s energy_error
+    step_estimates local_step_estimates mass_factor scaled_particles run_time_s phases_s bond_updates_per_s bond_pass_per_s energy_error
     kinetic_ratio platen_mismatch rate_error step_error sampling_error state_hash stopped_by warnings""".split()
 
 # program: case, --set, keys beyond those of every test, the result and its band, hashes of the last state with portable loops, in

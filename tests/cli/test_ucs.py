@@ -15,7 +15,7 @@ RUN = ("confinement_Pa confinement_measured_Pa peak_stress_Pa peak_deviator_Pa p
        "young_modulus_Pa young_modulus_50_Pa poisson_ratio crack_initiation_stress_Pa crack_damage_stress_Pa "
        "tensile_strength_Pa alpha alpha_affine mantle_cover particles loose_particles pieces bonds coordination "
        "dropped_bonds short_bonds broken_tension broken_shear localisation contact_searches length_quantum_m force_quantum_N steps time_step_s lowest_time_step_s "
-       "critical_time_step_s step_estimates mass_factor scaled_particles run_time_s phases_s bond_updates_per_s "
+       "critical_time_step_s step_estimates local_step_estimates mass_factor scaled_particles run_time_s phases_s bond_updates_per_s "
        "bond_pass_per_s energy_error rate_error step_error sampling_error kinetic_ratio platen_mismatch state_hash "
        "stopped_by warnings files").split()
 

@@ -28,7 +28,7 @@ def read_json(path):
     equal(run["energy_error"], None, "a quantity that is not a number")
     equal(run["phases_s"], {"platens": 0.5, "bonds": 7.5}, "phases")
     equal(run["warnings"], ["kinetic ratio 2e-3: dynamic"], "warnings")
-    equal([len(run), list(run)[0], list(run)[-1]], [48, "confinement_Pa", "warnings"], "keys")
+    equal([len(run), list(run)[0], list(run)[-1]], [49, "confinement_Pa", "warnings"], "keys")
 
 
 def read_h5(path):

@@ -2,12 +2,13 @@
 // steps that new contacts lower.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "core/base/error.hpp"
 #include "core/base/largest_eigenvalue.hpp"
-#include "core/elastic/critical_step.hpp"
 #include "core/elastic/elastic_network.hpp"
+#include "core/elastic/step_block.hpp"
 #include "core/stepping/step.hpp"
 #include "core/world/energies.hpp"
 #include "core/world/loop_views.hpp"
@@ -236,6 +237,42 @@ TEST_CASE(
   const double lo = w.particles.mass[w.bonds.row_lo[7]], hi = w.particles.mass[w.bonds.row_hi[7]];
   CHECK(w.bonds.damping[7] ==
         doctest::Approx(2 * 0.9 * std::sqrt(lo * hi / (lo + hi) * w.bonds.stiffness[7])).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "time step: around new contacts its number is that of the whole where they decide, and never larger [2 "
+    "%]") {
+  // a light sphere beside a cube of heavy ones decides; one that is as heavy does not
+  for (const double radius : {0.002, 0.01}) {
+    ref::Parameters p = elastic(0.4, 0.9);
+    p.beta = 0.01;
+    std::vector<Ball> balls;
+    for (std::size_t k = 0; k < 125; ++k)
+      balls.push_back({k + 1, 0.01, 0.02 * Vec3{double(k % 5), double(k / 5 % 5), double(k / 25)}});
+    balls.push_back({126, radius, {0.04, 0.04, 0.09 + radius + 0.0005}, 0, {0, 0, -10}});
+    WorldOptions o = scene::options(p);
+    Assembly a = scene::free_body(balls, p.beta, o.features);
+    a.mean_radius = 0.01;
+    World w = make_world(a, scene::material_of(p), scene::factor(p), o);
+    while (w.contacts.size == 0 && w.step < 1000) advance(w);
+    REQUIRE(w.contacts.size > 0);
+    std::vector<std::size_t> all(w.contacts.size);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const StepScene whole = scene_of(w);
+    const double of_all = estimate_step(whole, w.dt).number;
+    double before = 0;
+    for (const int bonds : {0, 1, 2, 3, 20}) {
+      const StepBlock block = block_around(whole, all, bonds);
+      const double number = estimate_step(block.scene(whole), w.dt).number;
+      CHECK(number <= 1.02 * of_all);
+      CHECK(number >= 0.98 * before);  // a larger principal block
+      before = number;
+      if (bonds == 3 && radius < 0.01) CHECK(number == doctest::Approx(of_all).epsilon(0.02));
+      if (bonds == 20) CHECK(std::ranges::count(block.fixed, 1) == 0);
+      if (bonds == 20) CHECK(number == doctest::Approx(of_all).epsilon(0.02));
+      if (bonds == 1) CHECK(std::ranges::count(block.fixed, 1) > 0);
+    }
+  }
 }
 
 TEST_CASE("time step: small spheres that come near lower it, dashpots follow, and it is never raised") {

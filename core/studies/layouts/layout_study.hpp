@@ -13,7 +13,7 @@ namespace breccia {
 
 /// Beyond this a layout does not compute the same as production in doubles.
 constexpr double allowed_difference(Precision precision) {
-  return precision == Precision::single ? 1e-5 : 1e-9;
+  return precision == Precision::single ? 1e-4 : 1e-9;
 }
 
 /// Of both precisions.

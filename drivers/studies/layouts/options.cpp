@@ -34,7 +34,8 @@ DIR/layouts.csv   a line for each size, number of threads and layout: median, le
                   bonds per second, limit, difference from production
 DIR/layouts.json  the same with every block, bytes and operations per bond, bandwidth, peak, the machine
 `scripts/plot DIR` draws them. Threads are not bound to cores: put taskset or numactl in front for that.
-Exit code 1: a layout differs by more than 1e-9, in single 1e-5.)";
+Exit code 1: a layout differs by more than 1e-9, in single 1e-4: the scene is hardly loaded, and forces are
+rounded to a quantum.)";
 
 }  // namespace
 
