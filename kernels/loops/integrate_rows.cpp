@@ -10,7 +10,7 @@ template <bool spins, bool viscous, bool booked>
 Integrated move_rows(const Motion m, std::size_t first, std::size_t last, double dt,
                      const GlobalDamping damping) {
   RangeSums<booked> sums;
-  Stretch together{};
+  Stretch together;
   by_stretches(
       first, last, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
         const auto loads = [&](std::size_t row, Four & torque) __attribute__((always_inline)) {

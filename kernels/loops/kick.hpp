@@ -66,13 +66,14 @@ struct Stretch {
   }
 };
 
-/// Brakes and kicks of all rows, from squares and inertias.
+/// Brakes and kicks of the first `rows`, from squares and inertias.
 template <bool viscous>
-[[gnu::always_inline]] inline void work_out(Stretch& s, double dt, const GlobalDamping& damping) {
+[[gnu::always_inline]] inline void work_out(Stretch& s, std::size_t rows, double dt,
+                                            const GlobalDamping& damping) {
   const auto aligned = std::experimental::vector_aligned;
   const double parts[] = {damping.translation, damping.rotation};
   for (std::size_t c = 0; c < 2; ++c)
-    for (std::size_t k = 0; k < stretch; k += Lanes::size()) {
+    for (std::size_t k = 0; k < rows; k += Lanes::size()) {
       const Lanes inertia(s.inertia[c] + k, aligned), speeds(s.speeds[c] + k, aligned);
       Lanes held = parts[c] * inertia;  // (B113)
       if constexpr (!viscous) {
@@ -104,7 +105,11 @@ template <bool spins, bool viscous, bool booked, class Loads>
     Stretch::put(s.inertia, k,
                  Two{mass, spins ? m.inertia_factor * mass * m.radius[row] * m.radius[row] : mass});
   }
-  work_out<viscous>(s, dt, damping);
+  for (std::size_t k = last - first; k % Lanes::size() != 0; ++k) {  // the rest of the last register
+    Stretch::put(s.speeds, k, Two{}), Stretch::put(s.forces, k, Two{});
+    Stretch::put(s.inertia, k, Two{1.0, 1.0});
+  }
+  work_out<viscous>(s, last - first, dt, damping);
   for (std::size_t row = first; row < last; ++row) {
     const std::size_t k = row - first;
     const Four velocity = four(m.velocity[row]), spin = spins ? four(m.spin[row]) : rest;

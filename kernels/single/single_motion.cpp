@@ -89,7 +89,7 @@ template <bool spins, bool viscous, bool booked>
 Integrated move_and_record(const Motion m, const RecordedMotion to, const CollectedSums from,
                            std::size_t first, std::size_t last, double dt, const GlobalDamping damping) {
   RangeSums<booked> sums;
-  Stretch together{};
+  Stretch together;
   Recorder recorder(to, dt);
   by_stretches(
       first, last, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
