@@ -158,19 +158,33 @@ void put_history(SingleStore& s, std::size_t k, const ParticleTable& p, const Bo
 
 }  // namespace
 
-Quanta choose_quanta(const ParticleTable& p, const BondTable& b, double dt) {
-  Quanta q;
-  double sum = 0, longest = 0, strongest = 0, arm = 1, fastest = 0;
-  std::vector<unsigned> bonds_of(p.size);
+namespace {
+
+/// m
+double length_quantum(const BondTable& b) {
+  double sum = 0, longest = 0;
   for (std::size_t k = 0; k < b.size; ++k) {
     sum += b.rest_length[k];
     longest = std::max(longest, b.rest_length[k]);
+  }
+  const double mean = sum / static_cast<double>(std::max<std::size_t>(1, b.size));
+  return power_of_two_above(std::max({mean / 32.0, longest / 128.0, 1e-30})) * 0x1p-31;
+}
+
+}  // namespace
+
+double shortest_told(const BondTable& b) { return 0x1p22 * length_quantum(b); }
+
+Quanta choose_quanta(const ParticleTable& p, const BondTable& b, double dt) {
+  Quanta q;
+  double strongest = 0, arm = 1, fastest = 0;
+  std::vector<unsigned> bonds_of(p.size);
+  for (std::size_t k = 0; k < b.size; ++k) {
     strongest = std::max(strongest, b.stiffness[k] * b.rest_length[k]);
     arm = std::max(arm, b.rest_length[k] / (p.radius[b.row_lo[k]] + p.radius[b.row_hi[k]]));
     ++bonds_of[b.row_lo[k]], ++bonds_of[b.row_hi[k]];
   }
-  const double mean = sum / static_cast<double>(std::max<std::size_t>(1, b.size));
-  q.length = power_of_two_above(std::max({mean / 32.0, longest / 128.0, 1e-30})) * 0x1p-31;
+  q.length = length_quantum(b);
   for (std::size_t row = 0; row < p.size; ++row)
     fastest =
         std::max({fastest, norm(p.velocity[row]), p.spin.empty() ? 0.0 : p.radius[row] * norm(p.spin[row])});

@@ -19,6 +19,11 @@ struct Quanta {
   Vec3 origin;             ///< m, that anchors count from
 };
 
+/// The shortest bond of which a quantum of length is no more than a float's last bit. A specimen
+/// that has shorter ones, spheres nested in each other, runs in double.
+/// @returns m
+double shortest_told(const BondTable& bonds);
+
 /// Chosen from a whole specimen, the same on every rank.
 Quanta choose_quanta(const ParticleTable& particles, const BondTable& bonds, double dt);
 

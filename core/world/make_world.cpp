@@ -85,8 +85,11 @@ Features asked_of_loop(const World& w) {
 }  // namespace
 
 World make_world(const Assembly& assembly, const Material& material, const AreaFactor& factor,
-                 const WorldOptions& options, std::span<const BondMaterial> others) {
+                 const WorldOptions& asked, std::span<const BondMaterial> others) {
   World w;
+  WorldOptions options = asked;
+  if (options.precision == Precision::single && bond_too_short_for_single(assembly.bonds))
+    options.precision = Precision::full;
   w.options = options;
   w.body = assembly.body;
   w.material = material;

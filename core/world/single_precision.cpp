@@ -1,5 +1,6 @@
 #include "core/world/single_precision.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 
@@ -21,6 +22,14 @@ void note_far(World& w, std::size_t first, std::size_t last) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> bond_too_short_for_single(const BondTable& b) {
+  if (b.size == 0) return std::nullopt;
+  const auto last = b.rest_length.begin() + static_cast<std::ptrdiff_t>(b.size);
+  const auto shortest = std::min_element(b.rest_length.begin(), last);
+  if (*shortest >= shortest_told(b)) return std::nullopt;
+  return static_cast<std::size_t>(shortest - b.rest_length.begin());
+}
 
 void start_single(World& w) {
   if (w.options.precision != Precision::single) return;

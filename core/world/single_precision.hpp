@@ -2,10 +2,14 @@
 // each other. Nothing here does anything in double precision. docs/model.md, "Single precision".
 #pragma once
 #include <functional>
+#include <optional>
 
 #include "core/world/world.hpp"
 
 namespace breccia {
+
+/// The shortest bond, where it is shorter than single precision can tell: the scene runs in double.
+std::optional<std::size_t> bond_too_short_for_single(const BondTable& bonds);
 
 /// Chooses the quanta from the whole specimen, and fills the store.
 void start_single(World& world);

@@ -17,6 +17,7 @@
 #include "core/elastic/elastic_network.hpp"
 #include "core/packing/drill.hpp"
 #include "core/tables/laws.hpp"
+#include "core/world/single_precision.hpp"
 #include "drivers/programs/check_body.hpp"
 #include "drivers/programs/check_bonded.hpp"
 #include "drivers/programs/scene_of_case.hpp"
@@ -242,6 +243,12 @@ ReadySpecimen make_ready(const Case& c, const LaboratoryTest& test, const Featur
     say(progress, describe(a, ready.connection));
     if (!c.groups.empty()) say(progress, describe_materials(a, c.groups.size() + 1));
     check_connection(ready.connection, a, specimen.source, ready.warnings);
+    if (const auto k = bond_too_short_for_single(a.bonds); k && c.precision == Precision::single)
+      ready.warnings.push_back(fmt::format(
+          "bond {}-{}, {:.3g} m long, is shorter than the {:.3g} m that single precision tells: the test "
+          "runs in "
+          "double",
+          a.bonds.gid_lo[*k], a.bonds.gid_hi[*k], a.bonds.rest_length[*k], shortest_told(a.bonds)));
   };
   const auto find_factor = [&](const Assembly& a, AlphaRule alpha, bool rough) {
     ready.factor = area_factor(c, a, alpha, rough, contacts, threads, progress);

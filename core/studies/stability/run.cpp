@@ -14,6 +14,7 @@
 #include "core/world/energies.hpp"
 #include "core/world/loop_views.hpp"
 #include "core/world/make_world.hpp"
+#include "core/world/single_precision.hpp"
 #include "core/world/stable_step.hpp"
 #include "core/world/sync.hpp"
 
@@ -50,6 +51,16 @@ void shake(World& w) {
   for (Vec3& v : p.velocity) v -= (1.0 / mass) * momentum;
 }
 
+/// J, of places as the table has them now, in either precision.
+double stored_by_tables(World& w) {
+  sync(w);
+  SingleStore aside;
+  std::swap(aside, w.single);
+  const double stored = stored_energy(w);
+  std::swap(aside, w.single);
+  return stored;
+}
+
 /// J, kinetic and stored at the instant whose forces the step finds: with the velocities half a
 /// step before and after it, which is what the scheme conserves (B48). Makes the step.
 double advance_with_energy(World& w) {
@@ -62,7 +73,7 @@ double advance_with_energy(World& w) {
                       inertia(inertia_factor(w), p.mass[k], p.radius[k]) * dot(spin[k], p.spin[k]));
   const Column<Vec3> moved = p.position.copy();
   p.position.fill(place);
-  const double stored = stored_energy(w);
+  const double stored = stored_by_tables(w);
   p.position.fill(moved);
   return kinetic + stored;
 }
@@ -98,9 +109,13 @@ bool has_run_away(const World& w, double start) {
 
 /// Whether a run that was stopped would have run away: it goes on without checks.
 bool would_run_away(World& w, double start, std::uint64_t steps) {
-  for (const std::uint64_t end = w.step + steps; w.step < end;) {
-    advance(w);
-    if (w.step % steps_between_looks == 0 && has_run_away(w, start)) return true;
+  try {
+    for (const std::uint64_t end = w.step + steps; w.step < end;) {
+      advance(w);
+      if (w.step % steps_between_looks == 0 && has_run_away(w, start)) return true;
+    }
+  } catch (const SimulationBroke&) {  // faster than single precision can tell
+    return true;
   }
   return false;
 }
@@ -137,7 +152,9 @@ void run_blast(World& w, double speed, std::uint64_t steps, StabilityRun& run) {
   for (std::size_t k = 0; k < w.particles.size; ++k)
     w.particles.velocity[k] = (2.0 * speed / w.body.diameter) * w.particles.position[k];
   w.particles.free = w.first_top = w.particles.size;
+  w.end_walls.enabled = false;
   w.options.global_damping = {};
+  start_single(w);
   run_freely(w, steps, false, run);
 }
 
@@ -192,9 +209,10 @@ void run_rest(StabilityWorld& made, std::uint64_t steps, StabilityRun& run) {
 
 }  // namespace
 
-StabilityWorld make_stability_world(const StabilityScene& scene, StabilityPart part,
-                                    const Material& material) {
+StabilityWorld make_stability_world(const StabilityScene& scene, StabilityPart part, const Material& material,
+                                    Precision precision) {
   StabilitySetup setup = plain_setup(material);
+  setup.options.precision = precision;
   scene.differ(setup);
   if (part != StabilityPart::law) make_linear(setup.options, part);
   StabilityWorld made;
@@ -220,7 +238,11 @@ StabilityWorld make_stability_world(const StabilityScene& scene, StabilityPart p
     w.particles.reference_position[k] += setup.offset;
   }
   w.neighbour_list.position = w.particles.position.copy();
-  if (part != StabilityPart::law) w.particles.free = w.first_top = w.particles.size;
+  for (double& place : w.end_walls.place) place += setup.offset.z;
+  if (part != StabilityPart::law) {
+    w.particles.free = w.first_top = w.particles.size;
+    w.end_walls.enabled = false;
+  }
   made.load = setup.load;
   made.blast = setup.blast;
   made.rest_steps = setup.rest_steps;
@@ -243,8 +265,9 @@ StabilityRun run_stability(const StabilityScene& scene, StabilityPart part, Stab
   run.dt = w.dt = fraction * made.exact;
   w.options.safety = fraction;
   w.critical_dt = made.exact;
+  if (part != StabilityPart::law) shake(w);
+  start_single(w);  // with the scene's own places, speeds and step
   if (part != StabilityPart::law) {
-    shake(w);
     run_freely(w, steps, part == StabilityPart::damped, run);
   } else if (made.blast > 0.0) {
     run_blast(w, made.blast, steps, run);

@@ -52,11 +52,12 @@ struct StabilityLength {
   std::uint64_t network_steps = 100'000;  ///< at the fraction that is nearest below 1; a fifth at the others
   double strain = 1.0;                    ///< of the scene's own stop strain
   double rest = 1.0;                      ///< of the scene's own steps of rest
+  Precision precision = Precision::single;
 };
 
 /// @throws BadInput where the scene is refused
-StabilityWorld make_stability_world(const StabilityScene& scene, StabilityPart part,
-                                    const Material& material);
+StabilityWorld make_stability_world(const StabilityScene& scene, StabilityPart part, const Material& material,
+                                    Precision precision);
 
 /// @param made  at rest; run at `fraction` of its limit for `steps` (a network) or its own loading
 StabilityRun run_stability(const StabilityScene& scene, StabilityPart part, StabilityWorld made,

@@ -30,7 +30,7 @@ std::vector<StabilityRun> study_stability(const StabilityScene& scene, Stability
   std::vector<StabilityRun> runs(fractions.size());
   StabilityWorld made;
   try {
-    made = make_stability_world(scene, part, material);
+    made = make_stability_world(scene, part, material, length.precision);
   } catch (const BadInput& why) {
     StabilityRun refused;
     refused.scene = scene.name;

@@ -60,6 +60,10 @@ std::optional<int> read_stability_options(int argc, char** argv, StabilityOption
       ->check(CLI::Range(std::uint64_t{100}, std::uint64_t{1'000'000'000}, "100 to 1000000000"));
   app.add_flag("--quick", quick, "a look: 2000 steps of each network, half of each test")
       ->excludes("--steps");
+  std::string precision(name_of(o.length.precision));
+  app.add_option("--precision", precision, "of the loop over bonds: single, double [single]")
+      ->type_name("WORD")
+      ->check(CLI::IsMember({"single", "double"}));
   app.add_option("--threads", o.threads, fmt::format("runs at once, one thread each [{} here]", o.threads))
       ->type_name("N")
       ->check(CLI::Range(1, 4096, "1 to 4096"));
@@ -67,6 +71,7 @@ std::optional<int> read_stability_options(int argc, char** argv, StabilityOption
   app.footer(results);
   if (const auto code = read_command_line(app, argc, argv)) return code;
   if (quick) o.length = {2000, 0.5, 0.001};
+  o.length.precision = precision == "single" ? Precision::single : Precision::full;
   return std::nullopt;
 }
 

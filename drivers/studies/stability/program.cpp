@@ -39,9 +39,10 @@ bool run_study(const StabilityOptions& options) {
   const FolderLock folder = claim_run_folder(options.out, options.force ? Old::replace : Old::refuse,
                                              {{"stability.csv", "stability.json"}, {}});
   Progress progress = make_progress(options.quiet);
-  say(progress, fmt::format("stiff and extreme scenes of {}, law dempack, at fractions of the largest stable "
-                            "step; {} steps of a network at 0.99",
-                            results.material, options.length.network_steps));
+  say(progress,
+      fmt::format("stiff and extreme scenes of {}, law dempack, at fractions of the largest stable "
+                  "step; {} steps of a network at 0.99; {} precision",
+                  results.material, options.length.network_steps, name_of(options.length.precision)));
   results.parts.resize(parts.size());
   // a signal ends the program at once: the files hold what has been run
   std::mutex one_at_a_time;

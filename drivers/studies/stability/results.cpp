@@ -51,7 +51,10 @@ void write_stability_json(const std::filesystem::path& file, const StabilityResu
   const Json all{{"study", "stability"},
                  {"version", results.machine.version},
                  {"machine", json_of(results.machine)},
-                 {"test", {{"material", results.material}, {"network_steps", results.length.network_steps}}},
+                 {"test",
+                  {{"material", results.material},
+                   {"network_steps", results.length.network_steps},
+                   {"precision", name_of(results.length.precision)}}},
                  {"runs", runs}};
   atomic_write(file, all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
