@@ -1,6 +1,7 @@
 """Time of the bond pass by layout, over the size of the specimen, beside the limit that the machine sets."""
 import numpy as np
 from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from .style import DISSIPATED, INK, KINETIC, SHEAR, SOFT, STORED, TENSION, new_figure, save
 from .study import read_study
@@ -53,7 +54,11 @@ def draw_layouts(folder, path):
         draw_threads(panel, study, threads)
     axes[0][0].set_yticks(range(len(study.layouts)), [label_of(layout, next(one for one in study.layouts if one[0] == layout[0])) for layout in study.layouts])
     axes[0][0].set_ylim(len(study.layouts) - 0.45, -0.55)
-    axes[0][0].set_xlim(0, None)
+    axes[0][0].set_xscale("log")
+    for panel in axes[0]:
+        panel.xaxis.set_major_locator(FixedLocator([0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200]))
+        panel.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+        panel.xaxis.set_minor_locator(NullLocator())
     handles = [Line2D([], [], color=colour, marker=marker, linestyle="none", label=f"{spheres:,} spheres")
                for spheres, colour, marker in styles(study)]
     handles.append(Line2D([], [], color=SOFT, marker="|", markersize=11, markeredgewidth=2, linestyle="none", label="limit"))
