@@ -15,8 +15,8 @@ namespace {
         "run.precision = \"double\"");
   fail<SimulationBroke>(
       "run.precision = \"single\": a sphere, or its surface, is faster than {:.3g} m/s, or farther than "
-      "{:.3g} m "
-      "from the specimen, more than its record can hold; take a smaller time.safety, or run.precision = "
+      "{:.3g} "
+      "m from the specimen, more than its record can hold; take a smaller time.safety, or run.precision = "
       "\"double\"",
       lost_motion * q.motion / w.dt, lost_place * q.length);
 }

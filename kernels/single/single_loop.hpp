@@ -161,7 +161,10 @@ private:
     const auto widened = [&](const FloatLanes& a) {
       return static_cast<double>(static_cast<float>(a.v[lane]));
     };
-    if (!(widened(most) < most_of_all)) numbers = false;
+    if (!(widened(most) < most_of_all)) {
+      numbers = false;
+      continue;
+    }
     const std::size_t at = first_lane + lane;
     apart.push_back({block.near[at] / row_unit,
                      block.far[at] / row_unit,
