@@ -49,7 +49,9 @@ class Stability(ProgramTest):
             self.assertAlmostEqual(r["time_step_s"] / r["limit_s"], r["fraction"], places=9)
             self.assertLess(r["estimate_over_limit"], 1)
             self.assertGreater(r["estimate_over_limit"], 0.95)
-            self.assertEqual("energy comes from nowhere" in r["cause"], r["verdict"] == "blew up")
+            # a guard of energy, or, before it looks, single precision's own of speeds
+            found = any(words in r["cause"] for words in ("energy comes from nowhere", "more than its record can hold"))
+            self.assertEqual(found, r["verdict"] == "blew up")
         for r in runs[3:]:
             self.assertLess(r["steps"], 400)
 
