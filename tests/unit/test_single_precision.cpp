@@ -164,3 +164,52 @@ TEST_CASE("single precision: fragments that fly metres away, and come back, move
     CHECK(norm(single.particles.velocity[row] - full.particles.velocity[row]) < 1e-3 * 12);
   }
 }
+
+TEST_CASE(
+    "single precision: what spins faster and faster makes its quantum coarser, and spins as in doubles "
+    "[1e-4]") {
+  // the spheres of a broken pair slide on each other while something turns one of them
+  const auto spun = [](Precision precision) {
+    ref::Parameters p;
+    p.damping_translation = p.damping_rotation = 0;
+    const double r = 0.005;
+    const Assembly a =
+        scene::free_body({{1, r, {0, 0, 0}}, {2, r, {1.999 * r, 0, 0}, 1, {-5, 0, 0}}}, 0.1, Features{});
+    WorldOptions o = scene::options(p);
+    o.precision = precision;
+    World w = make_world(a, scene::material_of(p), scene::factor(p), o);
+    w.bonds.damage_normal[0] = 1.0;
+    fill_single(w);
+    for (int k = 0; k < 200; ++k) {
+      w.particles.spin[0] += Vec3{0, 0, 300};
+      advance(w);
+    }
+    return w;
+  };
+  const World single = spun(Precision::single), full = spun(Precision::full);
+  CHECK(norm(full.particles.spin[0]) > 2e4);
+  CHECK(single.single.quanta.motion > single.single.quanta.length);
+  CHECK(single.single.coarsenings > 1);
+  for (const std::size_t row : {0, 1}) {
+    const auto same = [](const Vec3& a, const Vec3& b) { CHECK(norm(a - b) <= 1e-4 * norm(b)); };
+    same(single.particles.spin[row], full.particles.spin[row]);
+    same(single.particles.velocity[row], full.particles.velocity[row]);
+  }
+}
+
+TEST_CASE("single precision: a scene with a bond too short for it runs in doubles") {
+  for (const double apart : {1e-8, 1e-3}) {
+    ref::Parameters p;
+    const double r = 0.005;
+    const Assembly a = scene::free_body(
+        {{1, r, {0, 0, 0}}, {2, r, {apart, 0, 0}}, {3, r, {2 * r, 0, 0}}, {4, r, {4 * r, 0, 0}}}, 0.1,
+        Features{});
+    WorldOptions o = scene::options(p);
+    o.precision = Precision::single;
+    World w = make_world(a, scene::material_of(p), scene::factor(p), o);
+    CHECK(bond_too_short_for_single(a.bonds).has_value() == (apart < 1e-6));
+    CHECK(w.options.precision == (apart < 1e-6 ? Precision::full : Precision::single));
+    CHECK(w.single.empty() == (apart < 1e-6));
+    advance(w);
+  }
+}
