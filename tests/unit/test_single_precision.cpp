@@ -190,7 +190,7 @@ TEST_CASE(
   CHECK(norm(full.particles.spin[0]) > 2e4);
   CHECK(single.single.quanta.motion > single.single.quanta.length);
   CHECK(single.single.coarsenings > 1);
-  for (const std::size_t row : {0, 1}) {
+  for (const std::size_t row : {0u, 1u}) {
     const auto same = [](const Vec3& a, const Vec3& b) { CHECK(norm(a - b) <= 1e-4 * norm(b)); };
     same(single.particles.spin[row], full.particles.spin[row]);
     same(single.particles.velocity[row], full.particles.velocity[row]);

@@ -303,10 +303,10 @@ TEST_CASE(
          force_is_large) != 0);
   REQUIRE(apart.size() > 10);
   for (const LoadApart& load : apart) {  // each pair has rows of its own, in the sums as it was: nothing
-    const double f = fine.single.quanta.force;
+    const double quantum = fine.single.quanta.force;
     const std::size_t k = load.near / 2;
     CHECK(fine.single.sums[load.near].force[0] == 0);
-    const double sign = w.bonds.row_lo[k] == load.near ? f : -f;
+    const double sign = w.bonds.row_lo[k] == load.near ? quantum : -quantum;
     CHECK(norm(sign * Vec3{load.force[0], load.force[1], load.force[2]} - want.loads[k].force) <=
           1e-5 * norm(want.loads[k].force));
   }
