@@ -10,14 +10,12 @@ namespace {
   const Quanta& q = w.single.quanta;
   if (force)
     fail<SimulationBroke>(
-        "run.precision = \"single\": the force of a bond is no number any more; take a smaller time.safety, "
-        "or "
-        "run.precision = \"double\"");
+        "run.precision = \"single\": the force of a bond is no number any more; take a smaller "
+        "time.safety, or run.precision = \"double\"");
   fail<SimulationBroke>(
       "run.precision = \"single\": a sphere, or its surface, is faster than {:.3g} m/s, or farther than "
-      "{:.3g} "
-      "m from the specimen, more than its record can hold; take a smaller time.safety, or run.precision = "
-      "\"double\"",
+      "{:.3g} m from the specimen, more than its record can hold; take a smaller time.safety, or "
+      "run.precision = \"double\"",
       lost_motion * q.motion / w.dt, lost_place * q.length);
 }
 

@@ -156,10 +156,6 @@ void put_history(SingleStore& s, std::size_t k, const ParticleTable& p, const Bo
   ledger.shear_factor[j] = narrow(b.shear_factor[k]);
 }
 
-}  // namespace
-
-namespace {
-
 /// m
 double length_quantum(const BondTable& b) {
   double sum = 0, longest = 0;

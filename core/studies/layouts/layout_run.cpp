@@ -81,13 +81,7 @@ void LayoutRun::start_in_single() {
 void LayoutRun::move_by(double dt) {
   if (dt == moved_by_) return;
   sync(world_);
-  const Quanta& q = world_.single.quanta;
-  ParticleTable& p = world_.particles;
-  for (std::size_t row = 0; row < p.size; ++row) {
-    const Vec3 moved = (dt / q.motion) * p.velocity[row];
-    p.last_move[row] =
-        q.motion * Vec3{std::nearbyint(moved.x), std::nearbyint(moved.y), std::nearbyint(moved.z)};
-  }
+  set_anchors(world_.single.quanta, world_.particles, dt);
   const Column<IntegerSums> sums = world_.single.sums;  // go on growing
   world_.dt = moved_by_ = dt;
   fill_single(world_);
